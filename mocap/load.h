@@ -1,0 +1,31 @@
+/* load.h - a clip from a file of any known format. */
+#ifndef FF_LOAD_H
+#define FF_LOAD_H
+
+#include "mocap/clip.h"
+
+typedef struct ff_role_override {
+    const char *joint; /* name in the file */
+    ff_role role;
+} ff_role_override;
+
+typedef struct ff_load_options {
+    double unit_m; /* metres per file unit; 0 = the file's own statement, else the likeliest by leg length */
+    double fps;    /* 0 = what the file says, 120 for AMC */
+    char up;       /* 'y' or 'z' */
+    bool strict;   /* oddities that are worked around become errors */
+    const char *skeleton; /* ASF of an AMC; NULL = look beside it (NAME.asf, or the part before '_') */
+    const ff_role_override *overrides;
+    int override_count;
+} ff_load_options;
+
+ff_load_options ff_load_options_default(void);
+
+/* Read path (.amc, .bvh by ending, case-insensitive). On failure *out is zeroed and error says file:line:column.
+ * The caller frees *out with ff_clip_free. */
+ff_status ff_clip_load(const char *path, const ff_load_options *options, ff_clip *out, ff_error *error);
+
+/* Metres per file unit of a preset ("cmu", "m", "cm", "inch"), or 0 for an unknown name. */
+double ff_unit_preset(const char *name);
+
+#endif

@@ -1,0 +1,46 @@
+/* motion.h - a clip on the pack's skeleton (the rig): root ground frame, hips and joint rotations. Everything after
+ * the foot plants works on this form, so it sees one skeleton, one facing and a level floor at y = 0.
+ */
+#ifndef FF_MOTION_H
+#define FF_MOTION_H
+
+#include "mocap/clip.h"
+#include "preprocess/plants.h"
+
+/* Points of a posed body: the roles, then both heels. */
+enum { FF_BODY_HEEL_L = FF_ROLE_COUNT, FF_BODY_HEEL_R, FF_BODY_COUNT };
+
+/* The pack's skeleton. In its rest pose all global rotations are the identity: facing +Z, arms out, legs straight
+ * down, feet flat, soles at y = 0; left-right symmetric. */
+typedef struct ff_rig {
+    ff_vec3 offset[FF_BODY_COUNT]; /* m, from the parent role; HIPS: (0, rest height, 0) */
+    double leg;                    /* m, thigh + shank */
+} ff_rig;
+
+typedef struct ff_motion {
+    int frame_count;
+    double frame_time;  /* s: the clip's own */
+    ff_vec3 *root;      /* [frame_count] x = a (m), y = b (m), z = heading (rad, unwrapped) */
+    ff_vec3 *hips;      /* [frame_count] x = forward, y = left of the root, z = height (m) */
+    ff_quat *rotations; /* [frame_count][FF_ROLE_JOINT_COUNT] local; joint 0 relative to the root's heading */
+} ff_motion;
+
+/* Median of the clips' own proportions, made symmetric. */
+ff_status ff_rig_from_clips(const ff_clip *const *clips, int clip_count, ff_rig *out, ff_error *error);
+
+/* Bring a clip onto the rig: limb directions copied by role (smallest rotation between rest directions), root path
+ * scaled by leg length, floor levelled by the plants' plane. Root frame as algorithms A.4: hips low-passed twice over
+ * 0.25 s, facing from hips and shoulders. The caller frees *out with ff_motion_free. */
+ff_status ff_motion_from_clip(const ff_rig *rig, const ff_clip *clip, const ff_plants *plants, ff_motion *out,
+                              ff_error *error);
+void ff_motion_free(ff_motion *motion);
+
+/* World positions [FF_BODY_COUNT] of one frame (world = the clip's, floor at y = 0); rotations may be NULL or
+ * receives the world rotations [FF_ROLE_JOINT_COUNT]. */
+void ff_motion_pose(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec3 *positions,
+                    ff_quat *rotations);
+
+/* The same motion with left and right exchanged (algorithms A.8). */
+ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error);
+
+#endif

@@ -1,0 +1,171 @@
+#include "runtime/core/base/maths.h"
+
+/* Argument reduction by pi/2 in three parts (Cody and Waite), then minimax polynomials on [-pi/4, pi/4] with
+ * the classic fdlibm coefficients: only + - * and floor, so every IEEE machine gives the same bits. */
+static double kernel_sin(double x)
+{
+    double z = x * x;
+    double r = 8.33333333332248946124e-03 +
+               z * (-1.98412698298579493134e-04 +
+                    z * (2.75573137070700676789e-06 +
+                         z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+    return x + x * z * (-1.66666666666666324348e-01 + z * r);
+}
+
+static double kernel_cos(double x)
+{
+    double z = x * x;
+    double r = z * (4.16666666666666019037e-02 +
+                    z * (-1.38888888888741095749e-03 +
+                         z * (2.48015872894767294178e-05 +
+                              z * (-2.75573143513906633035e-07 +
+                                   z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
+    return 1.0 - (0.5 * z - z * r);
+}
+
+void ff_sincos(double x, double *sine, double *cosine)
+{
+    double n = floor(x * (2.0 / FF_PI) + 0.5);
+    double r = ((x - n * 1.57079632673412561417e+00) - n * 6.07710050630396597660e-11) -
+               n * 2.02226624879595063154e-21;
+    double s = kernel_sin(r), c = kernel_cos(r);
+    double quarter = n - 4.0 * floor(n * 0.25);
+    if (quarter < 0.5) {
+        *sine = s, *cosine = c;
+    } else if (quarter < 1.5) {
+        *sine = c, *cosine = -s;
+    } else if (quarter < 2.5) {
+        *sine = -s, *cosine = -c;
+    } else {
+        *sine = -c, *cosine = s;
+    }
+}
+
+double ff_sin(double x)
+{
+    double s, c;
+    ff_sincos(x, &s, &c);
+    return s;
+}
+
+double ff_cos(double x)
+{
+    double s, c;
+    ff_sincos(x, &s, &c);
+    return c;
+}
+
+/* atan on [0, 1] : reduce about 0, 1/2 or 1 so that |r| <= 0.27, then the odd fdlibm series. */
+static double atan_unit(double t)
+{
+    static const double coefficients[] = {
+        3.33333333333329318027e-01,  -1.99999999998764832476e-01, 1.42857142725034663711e-01,
+        -1.11111104054623557880e-01, 9.09088713343650656196e-02,  -7.69187620504482999495e-02,
+        6.66107313738753120669e-02,  -5.83357013379057348645e-02, 4.97687799461593236017e-02,
+        -3.65315727442169155270e-02, 1.62858201153657823623e-02};
+    double base = 0.0, r = t;
+    if (t > 0.6875) {
+        base = FF_PI / 4.0, r = (t - 1.0) / (t + 1.0);
+    } else if (t > 0.4375) {
+        base = 4.63647609000806093515e-01, r = (2.0 * t - 1.0) / (2.0 + t);
+    }
+    double z = r * r, sum = 0.0;
+    for (int i = 10; i >= 0; --i)
+        sum = coefficients[i] + z * sum;
+    return base + (r - r * z * sum);
+}
+
+double ff_atan2(double y, double x)
+{
+    double ay = fabs(y), ax = fabs(x);
+    if (!(ax > 0.0) && !(ay > 0.0)) return 0.0;
+    double angle = ay <= ax ? atan_unit(ay / ax) : FF_PI / 2.0 - atan_unit(ax / ay);
+    if (x < 0.0) angle = FF_PI - angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+double ff_acos(double x)
+{
+    x = ff_clamp(x, -1.0, 1.0);
+    return ff_atan2(sqrt((1.0 - x) * (1.0 + x)), x);
+}
+
+double ff_exp(double x)
+{
+    if (x < -745.0) return 0.0;
+    if (x > 709.0) x = 709.0;
+    double n = floor(x * 1.44269504088896338700e+00 + 0.5);
+    double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
+    double sum = 1.0;
+    for (int i = 13; i >= 1; --i)
+        sum = 1.0 + sum * r / (double)i; /* |r| <= 0.35: 13 terms reach 1e-17 */
+    return ldexp(sum, (int)n);
+}
+
+ff_quat ff_quat_axis(ff_vec3 unit_axis, double angle)
+{
+    double s, c;
+    ff_sincos(0.5 * angle, &s, &c);
+    return (ff_quat){unit_axis.x * s, unit_axis.y * s, unit_axis.z * s, c};
+}
+
+ff_quat ff_quat_yaw(double psi)
+{
+    return ff_quat_axis(ff_v3(0.0, 1.0, 0.0), psi);
+}
+
+ff_quat ff_quat_between(ff_vec3 from, ff_vec3 to)
+{
+    ff_vec3 axis = ff_cross3(from, to);
+    double w = 1.0 + ff_dot3(from, to);
+    if (w < 1e-9) {
+        ff_vec3 other = fabs(from.x) < 0.9 ? ff_v3(1.0, 0.0, 0.0) : ff_v3(0.0, 1.0, 0.0);
+        axis = ff_unit3(ff_cross3(from, other));
+        return (ff_quat){axis.x, axis.y, axis.z, 0.0};
+    }
+    return ff_quat_unit((ff_quat){axis.x, axis.y, axis.z, w});
+}
+
+ff_quat ff_quat_nlerp(ff_quat p, ff_quat q, double t)
+{
+    double s = ff_quat_dot(p, q) < 0.0 ? -t : t;
+    double r = 1.0 - t;
+    return ff_quat_unit(
+        (ff_quat){p.x * r + q.x * s, p.y * r + q.y * s, p.z * r + q.z * s, p.w * r + q.w * s});
+}
+
+ff_quat ff_quat_slerp(ff_quat p, ff_quat q, double t)
+{
+    ff_quat step = ff_quat_mul(ff_quat_conj(p), q);
+    return ff_quat_unit(ff_quat_mul(p, ff_quat_exp(ff_scale3(ff_quat_log(step), t))));
+}
+
+double ff_quat_heading(ff_quat q)
+{
+    ff_vec3 f = ff_quat_rotate(q, ff_v3(0.0, 0.0, 1.0));
+    return ff_atan2(f.x, f.z);
+}
+
+ff_vec3 ff_quat_log(ff_quat q)
+{
+    if (q.w < 0.0) q = (ff_quat){-q.x, -q.y, -q.z, -q.w};
+    ff_vec3 v = ff_v3(q.x, q.y, q.z);
+    double s = ff_length3(v);
+    if (s < 1e-12) return ff_scale3(v, 2.0);
+    return ff_scale3(v, 2.0 * ff_atan2(s, q.w) / s);
+}
+
+ff_quat ff_quat_exp(ff_vec3 rotation_vector)
+{
+    double angle = ff_length3(rotation_vector);
+    if (angle < 1e-12) {
+        ff_vec3 h = ff_scale3(rotation_vector, 0.5);
+        return ff_quat_unit((ff_quat){h.x, h.y, h.z, 1.0});
+    }
+    return ff_quat_axis(ff_scale3(rotation_vector, 1.0 / angle), angle);
+}
+
+double ff_quat_angle(ff_quat q)
+{
+    return 2.0 * ff_atan2(sqrt(q.x * q.x + q.y * q.y + q.z * q.z), fabs(q.w));
+}

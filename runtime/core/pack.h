@@ -1,0 +1,49 @@
+/* pack.h - a checked pack, as arrays of records in place. */
+#ifndef FF_PACK_H
+#define FF_PACK_H
+
+#include "runtime/core/base/maths.h"
+#include "runtime/core/pack_format.h"
+
+struct ff_pack {
+    const unsigned char *data;
+    size_t size;
+    void *mapping; /* owned ff_file, or NULL when the memory is borrowed */
+
+    const char *strings;
+    uint64_t string_size;
+    const char *meta; /* not terminated */
+    uint64_t meta_size;
+    const ff_pack_joint *joints;
+    uint32_t joint_count;
+    const ff_pack_point *points;
+    uint32_t point_count;
+    const ff_pack_stream *streams;
+    uint32_t stream_count;
+    const ff_pack_frame *frames;
+    uint32_t frame_count;
+    const int16_t (*rotations)[4]; /* [frame_count][joint_count] */
+    const ff_pack_clip *clips;
+    uint32_t clip_count;
+    const ff_pack_plant *plants;
+    uint32_t plant_count;
+    const ff_pack_action *actions;
+    uint32_t action_count;
+    const ff_pack_collider *colliders;
+    uint32_t collider_count;
+    const ff_pack_example *examples;
+    uint32_t example_count;
+    const ff_pack_foot *feet;
+    uint32_t foot_count;
+    const ff_pack_simplex *simplices;
+    uint32_t simplex_count;
+    const ff_pack_point2 *hull;
+    uint32_t hull_count;
+};
+
+static inline const char *ff_pack_string(const ff_pack *pack, uint32_t name)
+{
+    return pack->strings + name;
+}
+
+#endif

@@ -1,0 +1,209 @@
+/* pack_format.h - the motion pack, byte by byte. Little-endian. One file: ff_pack_header, the section table, then
+ * the sections, each starting on a 64-byte boundary and used in place. Records are plain structs without
+ * padding; a `name` is a byte offset into the STRS section, whose strings end with 0 and whose first byte is 0.
+ *
+ * A change of any record's meaning raises FF_PACK_VERSION. runtime/README.md describes the same for people.
+ */
+#ifndef FF_PACK_FORMAT_H
+#define FF_PACK_FORMAT_H
+
+#include <stdint.h>
+
+#define FF_PACK_MAGIC 0x4b434150464f4f46u /* "FOOFPACK" read as a little-endian u64 */
+#define FF_PACK_VERSION 1u
+#define FF_PACK_ALIGN 64u
+#define FF_PACK_MAX_JOINTS 64u
+#define FF_PACK_RATE 60.0 /* Hz, poses of clips; examples are near it (a whole number of frames per cycle) */
+
+#define FF_TAG(a, b, c, d) ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
+enum {
+    FF_SECTION_STRINGS = FF_TAG('S', 'T', 'R', 'S'),   /* char */
+    FF_SECTION_META = FF_TAG('M', 'E', 'T', 'A'),      /* char: provenance and settings as JSON text */
+    FF_SECTION_JOINTS = FF_TAG('J', 'N', 'T', 'S'),    /* ff_pack_joint */
+    FF_SECTION_POINTS = FF_TAG('P', 'N', 'T', 'S'),    /* ff_pack_point */
+    FF_SECTION_STREAMS = FF_TAG('S', 'T', 'R', 'M'),   /* ff_pack_stream */
+    FF_SECTION_FRAMES = FF_TAG('F', 'R', 'M', 'S'),    /* ff_pack_frame */
+    FF_SECTION_ROTATIONS = FF_TAG('R', 'O', 'T', 'S'), /* int16[4], joint_count per frame */
+    FF_SECTION_CLIPS = FF_TAG('C', 'L', 'I', 'P'),     /* ff_pack_clip */
+    FF_SECTION_PLANTS = FF_TAG('P', 'L', 'N', 'T'),    /* ff_pack_plant */
+    FF_SECTION_ACTIONS = FF_TAG('A', 'C', 'T', 'N'),   /* ff_pack_action */
+    FF_SECTION_COLLIDERS = FF_TAG('C', 'O', 'L', 'L'), /* ff_pack_collider */
+    FF_SECTION_EXAMPLES = FF_TAG('E', 'X', 'M', 'P'),  /* ff_pack_example */
+    FF_SECTION_FEET = FF_TAG('F', 'E', 'E', 'T'),      /* ff_pack_foot: per example frame, left then right */
+    FF_SECTION_SIMPLICES = FF_TAG('S', 'M', 'P', 'X'), /* ff_pack_simplex */
+    FF_SECTION_HULL = FF_TAG('H', 'U', 'L', 'L'),      /* ff_pack_point2, counter-clockwise in (f, l) */
+};
+
+typedef struct ff_pack_header {
+    uint64_t magic;
+    uint32_t version;
+    uint32_t section_count;
+    uint64_t file_size; /* bytes, whole file */
+    uint64_t checksum;  /* XXH64, seed 0, of every byte from the section table to the end of the file */
+} ff_pack_header;       /* 32 bytes; the section table follows at once */
+
+typedef struct ff_pack_section {
+    uint32_t tag;
+    uint32_t stride; /* bytes per element */
+    uint64_t count;  /* elements */
+    uint64_t offset; /* bytes from the start of the file, multiple of FF_PACK_ALIGN */
+    uint64_t size;   /* bytes = stride * count */
+} ff_pack_section;
+
+/* Joint j plays ff_role j (mocap/roles.h). In the rest pose every global rotation is the identity, the
+ * character faces +Z, arms out to the sides, legs straight down, feet flat. */
+typedef struct ff_pack_joint {
+    int32_t parent; /* -1 for joint 0, else smaller than the joint's own index */
+    uint32_t name;
+    float offset[3]; /* m from the parent; joint 0: (0, hips height in the rest pose, 0) */
+    float radius;    /* m, of the bone that starts here, for drawing and colliders */
+} ff_pack_joint;
+
+/* A point fixed on a joint: tips and heels. kind: 0 head top, 1 left hand, 2 right hand, 3 left toe,
+ * 4 right toe, 5 left heel, 6 right heel. The sole is at y = 0 in the rest pose. */
+enum {
+    FF_POINT_HEAD_TOP,
+    FF_POINT_HAND_L,
+    FF_POINT_HAND_R,
+    FF_POINT_TOE_L,
+    FF_POINT_TOE_R,
+    FF_POINT_HEEL_L,
+    FF_POINT_HEEL_R,
+    FF_POINT_COUNT
+};
+typedef struct ff_pack_point {
+    int32_t joint;
+    uint32_t kind;
+    float offset[3]; /* m, in the joint's frame */
+} ff_pack_point;
+
+/* Poses at a uniform rate. A cyclic stream of n frames spans n intervals: frame n would equal frame 0. */
+enum { FF_STREAM_CYCLIC = 1 };
+typedef struct ff_pack_stream {
+    uint32_t first_frame, frame_count; /* into FRMS (and ROTS by joint_count) */
+    float rate;                        /* frames per second */
+    uint32_t flags;
+} ff_pack_stream;
+
+/* Root ground frame and hips. Clips: root = smoothed ground path (a, b) and heading in the clip's world.
+ * Examples: root is zero, as the root moves at the example's constant rates; hips is the residual. The hips joint
+ * is at root + Rot(heading) * hips; its rotation (ROTS joint 0) is relative to the root's heading. */
+typedef struct ff_pack_frame {
+    float root[3]; /* a (m), b (m), heading (rad, unwrapped) */
+    float hips[3]; /* forward (m), left (m), height (m) */
+} ff_pack_frame;
+
+typedef struct ff_pack_clip {
+    uint32_t name, source, licence, citation, tags;
+    uint32_t stream;
+    uint32_t first_plant, plant_count;
+    uint32_t first_action, action_count; /* unmirrored ones */
+    uint64_t source_hash;                /* XXH64 of the file's bytes */
+    float source_rate;                   /* Hz */
+    float floor_base, floor_slope[2];    /* m; m per m along a and b */
+    float time_offset;                   /* s, of stream frame 0 after the file's first pose */
+    uint32_t flags;
+} ff_pack_clip;
+
+/* One foot plant; times in s from the file's first pose; flat_* = -1 when never flat. */
+typedef struct ff_pack_plant {
+    uint32_t clip, foot; /* 0 left, 1 right */
+    float start, end, flat_start, flat_end;
+    float ball[2];    /* a, b: m, in the clip's world */
+    float yaw;        /* rad */
+    float slide;      /* m */
+    float confidence; /* 0..1 */
+} ff_pack_plant;
+
+/* Locomotion modes of Table 1 (Beacco et al. 2013). */
+enum {
+    FF_MODE_IDLE,
+    FF_MODE_WALK_SHORT,
+    FF_MODE_WALK_LONG,
+    FF_MODE_RUN,
+    FF_MODE_JUMP,
+    FF_MODE_CLIMB,
+    FF_MODE_TURN,
+    FF_MODE_CROUCH,
+    FF_MODE_START,
+    FF_MODE_STOP,
+    FF_MODE_COUNT
+};
+
+enum { FF_ACTION_MIRRORED = 1, FF_ACTION_ALPHA_UNDEFINED = 2, FF_ACTION_DERIVED = 4 };
+
+/* A single step (or a whole platform action) with the annotation of Table 1. Frame S0 = the support foot's ball on
+ * the ground at t_0 as origin, root heading at t_0 as forward axis; components are (forward, left). Mirrored
+ * actions play the same stream frames with sides swapped; their record is already mirrored. */
+typedef struct ff_pack_action {
+    uint32_t clip, mode;
+    uint32_t support, swing; /* foot 0 left, 1 right */
+    uint32_t flags;
+    float t_0, t_end;            /* s, in the clip (from the file's first pose) */
+    float duration;              /* t, s */
+    float root_displacement[2];  /* v_r: whole root displacement over the step, m, in the root frame at t_0 */
+    float speed;                 /* m/s = |root_displacement| / t */
+    float direction;             /* rad, of root_displacement */
+    float swing_displacement[2]; /* f: swing foot from its old plant to its new one, m */
+    float alpha;                 /* rad, swing-relative step angle */
+    float theta;                 /* rad, heading change, + = left */
+    float step_length, step_width;             /* m, ball to ball along and across the heading at t_0 */
+    float root_start[3], root_end[3];          /* a, b, heading in S0 */
+    float land[3];                             /* a, b, yaw of the new plant's ball in S0 */
+    float support_yaw;                         /* rad, of the support foot in S0 */
+    float energy;                              /* J/kg over the step: integral of e_s + e_w v^2 */
+    float flight[2];                           /* s in the clip, -1, -1 when a foot was always down */
+    float coarse_radius;                       /* m, cylinder round the root that holds all five colliders */
+    uint32_t first_collider, collider_samples; /* COLL: samples * FF_COLLIDER_COUNT elements */
+    uint32_t support_plant, swing_plant;       /* into PLNT */
+} ff_pack_action;
+
+enum {
+    FF_COLLIDER_HEAD,
+    FF_COLLIDER_HAND_L,
+    FF_COLLIDER_HAND_R,
+    FF_COLLIDER_FOOT_L,
+    FF_COLLIDER_FOOT_R,
+    FF_COLLIDER_ROOT,
+    FF_COLLIDER_COUNT
+};
+typedef struct ff_pack_collider {
+    float a, b, y; /* m, in S0 */
+} ff_pack_collider;
+
+/* Gait classes are never blended with each other. */
+enum { FF_GAIT_WALK, FF_GAIT_RUN, FF_GAIT_COUNT };
+enum { FF_EXAMPLE_IDLE = 1, FF_EXAMPLE_MIRRORED = 2, FF_EXAMPLE_DERIVED = 4 };
+
+/* One seamless gait cycle at constant root rates. Key phases are fractions of the cycle in [0, 1): left contact
+ * (always 0), right toe-off, right contact, left toe-off: increasing for walks; idle has 0, .1, .5, .6. */
+typedef struct ff_pack_example {
+    uint32_t name, clip, stream, gait, flags;
+    float period;                       /* s */
+    float v_forward, v_left, turn_rate; /* m/s, m/s, rad/s */
+    float key[4];
+    float lock[2][2]; /* per foot: phases between which the ball stands still (start may exceed end: wraps);
+                           end < 0 = always (idle) */
+    float seam;       /* m, mean joint distance of the last from the first pose before closing */
+} ff_pack_example;
+
+/* Where a foot is in the constant-rate root frame, per example frame; index = 2 * (frame - first EXMP frame) + foot.
+ * Examples' streams come first in FRMS in EXMP order, so FEET has 2 * (number of example frames) elements. */
+typedef struct ff_pack_foot {
+    float ball[3]; /* forward, left, height: m */
+    float yaw;     /* rad, heel to ball, relative to the root's heading */
+    float pitch;   /* rad, toes up + */
+} ff_pack_foot;
+
+/* Simplex of examples in (v_forward, v_left, turn_rate), for barycentric blending within one gait class;
+ * vertex count 1 to 4, unused are -1. */
+typedef struct ff_pack_simplex {
+    int32_t vertex[4];
+    uint32_t gait;
+} ff_pack_simplex;
+
+typedef struct ff_pack_point2 {
+    float f, l; /* m/s, agent frame */
+} ff_pack_point2;
+
+#endif

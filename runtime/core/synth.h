@@ -1,0 +1,52 @@
+/* synth.h - from root motion to poses: phase-blended gait examples with planted feet locked (FbCrowd 5;
+ * algorithms D.1, D.2, D.6; the lock of the synthesis study, section 4).
+ *
+ * The body owns the root: navigation asks, ff_body_step moves a body-frame velocity (v_forward, v_left,
+ * turn_rate) that the examples can realise towards it, and the root moves by exactly that. The pose is then made
+ * to fit the root: blend weights reproduce the velocity, and locked feet stay where they stand.
+ */
+#ifndef FF_SYNTH_H
+#define FF_SYNTH_H
+
+#include "runtime/core/pack.h"
+
+/* Body-frame rates. */
+typedef struct ff_rates {
+    double forward, left, turn; /* m/s, m/s, rad/s */
+} ff_rates;
+
+#define FF_BLEND_MAX 4 /* examples blended at once */
+
+typedef struct ff_blend_space ff_blend_space;
+
+/* Prepare the pack's walking examples for blending. The pack must outlive the space. Fails with FF_ERR_NO_DATA when
+ * the pack has no example to walk with. */
+ff_status ff_blend_space_create(const ff_pack *pack, ff_blend_space **out, ff_error *error);
+void ff_blend_space_destroy(ff_blend_space *space);
+
+/* The rates nearest to target that the examples can be blended to. Allocates nothing; thread-safe. */
+ff_rates ff_blend_clamp(const ff_blend_space *space, ff_rates target);
+
+/* Everything synthesis remembers of one agent: plain data, no pointers, hashed as bytes (so no padding may be
+ * left undefined: ff_gait_init zeroes it). */
+typedef struct ff_gait ff_gait;
+size_t ff_gait_size(void); /* for the crowd's arrays; sizeof(ff_gait) is in synth_state.h */
+
+/* Standing at position/heading with style and phase drawn from variation (any 64 bits). */
+void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
+                  uint64_t variation);
+
+/* The root has just moved over dt to position/heading with these rates (already clamped): advance phase, weights
+ * and foot locks. Pure function of its arguments; allocates nothing. */
+void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
+                  ff_rates rates, double dt);
+
+/* Pose at the current state: world position of the hips joint and local rotations [pack joint_count] (joint 0 in
+ * world). Allocates nothing; thread-safe for different gaits. */
+void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 position, double heading,
+                  ff_vec3 *hips, ff_quat *rotations);
+
+/* 1 when foot (0 left, 1 right) is locked to the ground now. */
+int ff_gait_planted(const ff_gait *gait, int foot);
+
+#endif

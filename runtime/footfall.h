@@ -1,0 +1,189 @@
+/* footfall.h - crowds of people who walk with their feet on the ground.
+ *
+ * Link libfootfall (pure C17: libc, libm and threads), open a motion pack made by `footfall-pack`, create a
+ * crowd on it, add agents and walls, and step. Every agent's root and disc are one thing: what the body
+ * really does is what moves.
+ *
+ * Units and axes: metres, seconds, radians; right-handed, Y up, ground y = 0; a character at rest faces +Z
+ * with its left at +X; positive heading turns left (about +Y). Ground-plane points are ff_vec2 in PLANE
+ * coordinates (a, b) := (z, x), so that heading psi points along (cos psi, sin psi) and "left" keeps its
+ * sign; ff_plane() and ff_ground() convert. Quaternions are stored (x, y, z, w).
+ *
+ * Objects are opaque pointers with one owner; agents are handles with a generation. Every call that can fail
+ * returns ff_status and fills the caller's ff_error (which may be NULL); outputs are then NULL or untouched.
+ * Nothing is global; different crowds may be used from different threads at once.
+ */
+#ifndef FOOTFALL_H
+#define FOOTFALL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FF_VERSION "0.1.0"
+
+/* ------------------------------------------------------------------------------------- status and errors */
+
+typedef enum ff_status {
+    FF_OK = 0,
+    FF_ERR_ARGUMENT,   /* a caller's value is outside what the function accepts */
+    FF_ERR_IO,         /* the operating system refused to read or write */
+    FF_ERR_PARSE,      /* a file does not say what its format demands */
+    FF_ERR_NOT_FINITE, /* nan or inf where a number is needed */
+    FF_ERR_RANGE,      /* a count or value is absurd, or a capacity is exceeded */
+    FF_ERR_UNSUPPORTED,
+    FF_ERR_NO_DATA, /* well-formed, but holds nothing usable */
+    FF_ERR_NO_MEMORY,
+} ff_status;
+
+/* What went wrong and where. ff_error_text() renders it as "file:line:column: message". */
+typedef struct ff_error {
+    ff_status status;
+    char file[256];       /* input being read; "" when there is none */
+    uint32_t line;        /* 1-based; 0 = not a text position */
+    uint32_t column;      /* 1-based; 0 = unknown */
+    uint64_t byte_offset; /* from the start of a binary file; meaningful when section is not "" */
+    char section[16];     /* pack section, "" for text files */
+    char message[384];    /* what was found, what was expected, what to do */
+} ff_error;
+
+/* Render an error on one line into text (size bytes, always terminated). Returns text. */
+const char *ff_error_text(const ff_error *error, char *text, size_t size);
+const char *ff_status_name(ff_status status);
+
+/* ---------------------------------------------------------------------------------------------- geometry */
+
+typedef struct ff_vec2 {
+    double a, b; /* plane coordinates: a = world z, b = world x */
+} ff_vec2;
+typedef struct ff_vec3 {
+    double x, y, z;
+} ff_vec3;
+typedef struct ff_quat {
+    double x, y, z, w;
+} ff_quat;
+
+static inline ff_vec2 ff_plane(ff_vec3 p)
+{
+    ff_vec2 q = {p.z, p.x};
+    return q;
+}
+static inline ff_vec3 ff_ground(ff_vec2 p, double y)
+{
+    ff_vec3 q = {p.b, y, p.a};
+    return q;
+}
+
+/* ------------------------------------------------------------------------------------------- motion packs */
+
+/* An opened motion pack: immutable, used in place, may be shared by any number of crowds and threads. */
+typedef struct ff_pack ff_pack;
+
+/* Map a pack file and check every offset, count and index in it. On failure *out is NULL and error names the
+ * section and byte. The pack must outlive every crowd made on it. */
+ff_status ff_pack_open(const char *path, ff_pack **out, ff_error *error);
+
+/* The same for size bytes at data (64-byte aligned; borrowed, must outlive the pack). */
+ff_status ff_pack_open_memory(const void *data, size_t size, ff_pack **out, ff_error *error);
+
+void ff_pack_close(ff_pack *pack); /* NULL is fine */
+
+uint32_t ff_pack_joint_count(const ff_pack *pack);
+const char *ff_pack_joint_name(const ff_pack *pack, uint32_t joint); /* owned by the pack */
+int32_t ff_pack_joint_parent(const ff_pack *pack, uint32_t joint);   /* -1 = root */
+ff_vec3 ff_pack_joint_offset(const ff_pack *pack, uint32_t joint);   /* m, from the parent, rest pose */
+
+/* ------------------------------------------------------------------------------------------------- crowds */
+
+typedef struct ff_crowd ff_crowd;
+typedef struct ff_agent {
+    uint32_t slot, generation; /* {0, 0} means "no agent" */
+} ff_agent;
+
+/* Run function(context, index) for every index in [0, count), in any order, on any threads; return when all
+ * are done. */
+typedef void ff_parallel_for(void *pool, uint32_t count, void (*function)(void *context, uint32_t index),
+                             void *context);
+
+typedef struct ff_crowd_def {
+    uint32_t max_agents;    /* hard cap; all memory is taken at creation */
+    uint32_t max_walls;     /* static segments */
+    double step;            /* s, fixed simulation step, > 0; default 1/30 */
+    uint64_t seed;          /* same seed and same calls give the same bits */
+    uint32_t threads;       /* own pool of this many threads; 1 = the caller's only. Ignored if tasks set */
+    ff_parallel_for *tasks; /* caller's scheduler, or NULL */
+    void *task_pool;        /* passed to tasks */
+    uint32_t cookie;        /* set by ff_crowd_def_default(); leave it alone */
+} ff_crowd_def;
+
+typedef struct ff_agent_def {
+    ff_vec2 position;       /* m, plane coordinates */
+    double heading;         /* rad */
+    ff_vec2 goal;           /* m; the agent stops and stands within goal_tolerance of it */
+    double goal_tolerance;  /* m, default 0.5 */
+    double preferred_speed; /* m/s, default 1.3 */
+    double radius;          /* m, default 0.3 */
+    uint32_t cookie;        /* set by ff_agent_def_default() */
+} ff_agent_def;
+
+ff_crowd_def ff_crowd_def_default(void);
+ff_agent_def ff_agent_def_default(void);
+
+/* The pack must outlive the crowd. */
+ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd **out, ff_error *error);
+void ff_crowd_destroy(ff_crowd *crowd); /* NULL is fine */
+
+ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent *out, ff_error *error);
+ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error);
+ff_status ff_crowd_set_goal(ff_crowd *crowd, ff_agent agent, ff_vec2 goal, ff_error *error);
+
+/* A static wall from p to q, solid from both sides. Walls are fixed once the first step was taken. */
+ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *error);
+
+/* Advance by one fixed step. Does not allocate. */
+void ff_crowd_step(ff_crowd *crowd);
+
+uint32_t ff_crowd_agent_count(const ff_crowd *crowd);
+uint64_t ff_crowd_step_count(const ff_crowd *crowd);
+
+/* FNV-1a over the bits of the whole state: equal on any number of threads. */
+uint64_t ff_crowd_state_hash(const ff_crowd *crowd);
+
+typedef struct ff_agent_state {
+    ff_vec2 position;   /* m, root and disc */
+    ff_vec2 velocity;   /* m/s, of the root over the last step */
+    double heading;     /* rad, where the body faces */
+    double turn_rate;   /* rad/s */
+    ff_vec2 command;    /* m/s, what navigation asked for */
+    ff_vec2 goal;       /* m */
+    double radius;      /* m */
+    uint8_t reached;    /* 1: stands at its goal */
+    uint8_t planted[2]; /* left, right: the foot is locked to the ground */
+    uint8_t reserved[5];
+} ff_agent_state;
+
+/* State of a live agent. Fails with FF_ERR_ARGUMENT for a stale handle. */
+ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_state *out, ff_error *error);
+
+/* Handles of all live agents in slot order. Writes at most capacity, returns how many there are. */
+uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity);
+
+/* Pose of one agent now: rotations[joint_count], local to the parent; *hips = world position of joint 0, whose
+ * rotation is in world space. Allocates nothing; may be called from several threads for different agents. */
+ff_status ff_crowd_agent_pose(const ff_crowd *crowd, ff_agent agent, ff_vec3 *hips, ff_quat *rotations,
+                              ff_error *error);
+
+/* Seconds spent per phase since creation, summed over steps. Wall clock: for reports only, never part of the
+ * state. */
+typedef struct ff_crowd_timings {
+    double neighbours, navigation, synthesis, total;
+} ff_crowd_timings;
+ff_crowd_timings ff_crowd_time_spent(const ff_crowd *crowd);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,47 @@
+/* command_line.h - options and exit codes, the same for both programs. */
+#ifndef FF_COMMAND_LINE_H
+#define FF_COMMAND_LINE_H
+
+#include "runtime/footfall.h"
+
+#include <stdbool.h>
+
+enum { FF_EXIT_OK = 0, FF_EXIT_FAILURE = 1, FF_EXIT_USAGE = 2 };
+
+/* One option of a command. Exactly one of the targets is set. */
+typedef struct ff_option {
+    const char *name;       /* "--out" */
+    const char *alias;      /* "-o" or NULL */
+    const char *value_name; /* "FILE"; NULL for a flag */
+    const char *help;
+    bool *flag;
+    const char **text;
+    double *number;
+    int64_t *integer;
+    double low, high; /* accepted range of number and integer */
+} ff_option;
+
+typedef struct ff_command {
+    const char *program;            /* "footfall-pack" */
+    const char *name;               /* "build"; "" for the program itself */
+    const char *arguments;          /* "CATALOGUE|FOLDER|FILES..." */
+    const char *summary;            /* one line */
+    const char *details;            /* more for --help, or NULL */
+    ff_option *options;             /* ends with a zeroed element */
+    int min_operands, max_operands; /* max < 0: any number */
+} ff_command;
+
+/* What parsing left: operands point into argv. */
+typedef struct ff_operands {
+    const char **items; /* owned by the caller: argc elements given */
+    int count;
+} ff_operands;
+
+/* Parse argv[0..argc) (after the command's own name). --help and --version are answered here. Returns -1 to go on,
+ * else the exit status to leave with (a usage error was printed to stderr, with the nearest known option). */
+int ff_command_parse(const ff_command *command, int argc, char **argv, ff_operands *operands);
+
+/* Print "footfall-pack: <error>" to stderr; returns FF_EXIT_FAILURE. */
+int ff_command_fail(const char *program, const ff_error *error);
+
+#endif
