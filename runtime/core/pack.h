@@ -39,6 +39,8 @@ struct ff_pack {
     uint32_t simplex_count;
     const ff_pack_point2 *hull;
     uint32_t hull_count;
+    const ff_pack_track *tracks; /* NULL when the pack has none */
+    uint32_t track_count;
 };
 
 static inline const char *ff_pack_string(const ff_pack *pack, uint32_t name)

@@ -32,7 +32,10 @@ enum {
     FF_SECTION_FEET = FF_TAG('F', 'E', 'E', 'T'),      /* ff_pack_foot: per example frame, left then right */
     FF_SECTION_SIMPLICES = FF_TAG('S', 'M', 'P', 'X'), /* ff_pack_simplex */
     FF_SECTION_HULL = FF_TAG('H', 'U', 'L', 'L'),      /* ff_pack_point2, counter-clockwise in (f, l) */
+    FF_SECTION_TRACKS =
+        FF_TAG('T', 'R', 'C', 'K'), /* ff_pack_track: per clip frame, left then right; optional */
 };
+#define FF_PACK_SECTION_COUNT 16
 
 typedef struct ff_pack_header {
     uint64_t magic;
@@ -201,6 +204,13 @@ typedef struct ff_pack_simplex {
     int32_t vertex[4];
     uint32_t gait;
 } ff_pack_simplex;
+
+/* What the plant finder saw of a foot, for reports: index = 2 * (frame - number of example frames) + foot. The clips'
+ * streams follow the examples' in FRMS in CLIP order. Heel, ball, toe. Nothing at run time reads it. */
+typedef struct ff_pack_track {
+    int16_t height[3]; /* 0.1 mm, over the point's own rest level */
+    int16_t speed[3];  /* mm/s, on the ground */
+} ff_pack_track;
 
 typedef struct ff_pack_point2 {
     float f, l; /* m/s, agent frame */

@@ -1,0 +1,127 @@
+#include "preprocess/pack_write.h"
+
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/file.h"
+#include "runtime/core/base/maths.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+/* In the order in which the sections stand in the file. */
+static const struct section_kind {
+    uint32_t tag, stride;
+    size_t array; /* offset in ff_pack_content */
+} kinds[FF_PACK_SECTION_COUNT] = {
+    {FF_SECTION_STRINGS, 1, offsetof(ff_pack_content, strings)},
+    {FF_SECTION_META, 1, offsetof(ff_pack_content, meta)},
+    {FF_SECTION_JOINTS, sizeof(ff_pack_joint), offsetof(ff_pack_content, joints)},
+    {FF_SECTION_POINTS, sizeof(ff_pack_point), offsetof(ff_pack_content, points)},
+    {FF_SECTION_STREAMS, sizeof(ff_pack_stream), offsetof(ff_pack_content, streams)},
+    {FF_SECTION_FRAMES, sizeof(ff_pack_frame), offsetof(ff_pack_content, frames)},
+    {FF_SECTION_ROTATIONS, sizeof(int16_t[4]), offsetof(ff_pack_content, rotations)},
+    {FF_SECTION_CLIPS, sizeof(ff_pack_clip), offsetof(ff_pack_content, clips)},
+    {FF_SECTION_PLANTS, sizeof(ff_pack_plant), offsetof(ff_pack_content, plants)},
+    {FF_SECTION_ACTIONS, sizeof(ff_pack_action), offsetof(ff_pack_content, actions)},
+    {FF_SECTION_COLLIDERS, sizeof(ff_pack_collider), offsetof(ff_pack_content, colliders)},
+    {FF_SECTION_EXAMPLES, sizeof(ff_pack_example), offsetof(ff_pack_content, examples)},
+    {FF_SECTION_FEET, sizeof(ff_pack_foot), offsetof(ff_pack_content, feet)},
+    {FF_SECTION_SIMPLICES, sizeof(ff_pack_simplex), offsetof(ff_pack_content, simplices)},
+    {FF_SECTION_HULL, sizeof(ff_pack_point2), offsetof(ff_pack_content, hull)},
+    {FF_SECTION_TRACKS, sizeof(ff_pack_track), offsetof(ff_pack_content, tracks)},
+};
+
+static ff_array *section_array(ff_pack_content *content, int kind)
+{
+    return (ff_array *)(void *)((char *)content + kinds[kind].array);
+}
+
+void ff_pack_content_free(ff_pack_content *content)
+{
+    for (int k = 0; k < FF_PACK_SECTION_COUNT; ++k)
+        ff_array_free(section_array(content, k));
+}
+
+uint32_t ff_pack_add_string(ff_pack_content *content, const char *text)
+{
+    ff_array *strings = &content->strings;
+    if (strings->count == 0) {
+        char *first = ff_array_grow(strings, 1, 1);
+        if (!first) return UINT32_MAX;
+        *first = 0;
+    }
+    if (!text) return 0;
+    const char *base = strings->data;
+    for (size_t at = 0; at < strings->count; at += strlen(base + at) + 1)
+        if (strcmp(base + at, text) == 0) return (uint32_t)at;
+    size_t place = strings->count, length = strlen(text) + 1;
+    if (length > UINT32_MAX - 1 - place) return UINT32_MAX;
+    char *copy = ff_array_grow(strings, length, 1);
+    if (!copy) return UINT32_MAX;
+    memcpy(copy, text, length);
+    return (uint32_t)place;
+}
+
+ff_status ff_pack_set_meta(ff_pack_content *content, const char *json, ff_error *error)
+{
+    content->meta.count = 0;
+    size_t length = strlen(json);
+    char *copy = ff_array_grow(&content->meta, length, 1);
+    if (!copy) return ff_fail(error, FF_ERR_NO_MEMORY, "provenance of %zu bytes", length);
+    memcpy(copy, json, length);
+    return FF_OK;
+}
+
+void ff_pack_quantise(ff_quat q, int16_t out[4])
+{
+    const double part[4] = {q.x, q.y, q.z, q.w};
+    for (int i = 0; i < 4; ++i)
+        out[i] = (int16_t)floor(ff_clamp(part[i], -1.0, 1.0) * 32767.0 + 0.5);
+}
+
+static uint64_t align_up(uint64_t offset)
+{
+    return (offset + FF_PACK_ALIGN - 1) & ~(uint64_t)(FF_PACK_ALIGN - 1);
+}
+
+ff_status ff_pack_image(ff_pack_content *content, void **data, size_t *size, ff_error *error)
+{
+    *data = NULL;
+    *size = 0;
+    if (ff_pack_add_string(content, "") == UINT32_MAX)
+        return ff_fail(error, FF_ERR_NO_MEMORY, "the strings of the pack");
+    ff_pack_section table[FF_PACK_SECTION_COUNT];
+    const size_t table_at = sizeof(ff_pack_header);
+    uint64_t end = table_at + sizeof table;
+    for (int k = 0; k < FF_PACK_SECTION_COUNT; ++k) {
+        uint64_t count = section_array(content, k)->count;
+        table[k] =
+            (ff_pack_section){kinds[k].tag, kinds[k].stride, count, align_up(end), count * kinds[k].stride};
+        end = table[k].offset + table[k].size;
+    }
+    uint64_t whole = align_up(end);
+    unsigned char *image = aligned_alloc(FF_PACK_ALIGN, whole);
+    if (!image) return ff_fail(error, FF_ERR_NO_MEMORY, "a pack of %llu bytes", (unsigned long long)whole);
+    memset(image, 0, whole);
+    memcpy(image + table_at, table, sizeof table);
+    for (int k = 0; k < FF_PACK_SECTION_COUNT; ++k)
+        if (table[k].size) memcpy(image + table[k].offset, section_array(content, k)->data, table[k].size);
+    ff_pack_header header = {FF_PACK_MAGIC, FF_PACK_VERSION, FF_PACK_SECTION_COUNT, whole, 0};
+    header.checksum = XXH64(image + table_at, whole - table_at, 0);
+    memcpy(image, &header, sizeof header);
+    *data = image;
+    *size = whole;
+    return FF_OK;
+}
+
+ff_status ff_pack_write(ff_pack_content *content, const char *path, ff_error *error)
+{
+    void *data;
+    size_t size;
+    ff_status status = ff_pack_image(content, &data, &size, error);
+    if (status == FF_OK) status = ff_file_write_atomic(path, data, size, error);
+    free(data);
+    return status;
+}
