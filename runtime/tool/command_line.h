@@ -41,6 +41,18 @@ typedef struct ff_operands {
  * else the exit status to leave with (a usage error was printed to stderr, with the nearest known option). */
 int ff_command_parse(const ff_command *command, int argc, char **argv, ff_operands *operands);
 
+/* A program of several commands. run receives what follows the command's name and returns the exit status. */
+typedef struct ff_subcommand {
+    const char *name;    /* NULL ends the list */
+    const char *summary; /* one line for the program's --help */
+    int (*run)(int argc, char **argv);
+} ff_subcommand;
+
+/* Run the command argv[1] names and return its exit status. Answers --help and --version of the program itself; no
+ * or an unknown command is a usage error that names the nearest known one. */
+int ff_command_dispatch(const char *program, const char *summary, const ff_subcommand *commands, int argc,
+                        char **argv);
+
 /* Print "footfall-pack: <error>" to stderr; returns FF_EXIT_FAILURE. */
 int ff_command_fail(const char *program, const ff_error *error);
 

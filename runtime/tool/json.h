@@ -6,7 +6,7 @@
 #ifndef FF_JSON_H
 #define FF_JSON_H
 
-#include "runtime/footfall.h"
+#include "runtime/core/base/fail.h"
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -23,12 +23,14 @@ ff_status ff_json_load(const char *path, ff_json *out, ff_error *error);
 ff_status ff_json_parse(const char *text, size_t size, const char *name, ff_json *out, ff_error *error);
 void ff_json_free(ff_json *json);
 
-/* Raise an error at the place of a value of this document (an object, array or scalar reached from root). */
-ff_status ff_json_fail(const ff_json *json, const json_t *value, ff_error *error, const char *format, ...);
+/* Raise an error at the place of a value of this document (an object, array, string or number reached from root;
+ * jansson shares one true, false and null among all places, so for those name the object's key instead). */
+ff_status ff_json_fail(const ff_json *json, const json_t *value, ff_error *error, const char *format, ...)
+    FF_PRINTF(4, 5);
 
 /* The same at the place of a key of object. */
 ff_status ff_json_fail_key(const ff_json *json, const json_t *object, const char *key, ff_error *error,
-                           const char *format, ...);
+                           const char *format, ...) FF_PRINTF(5, 6);
 
 /* Refuse keys of object that are not in allowed (NULL-terminated list), naming the nearest allowed one. */
 ff_status ff_json_only_keys(const ff_json *json, const json_t *object, const char *const *allowed,
