@@ -23,6 +23,7 @@ struct ff_pack {
     const ff_pack_frame *frames;
     uint32_t frame_count;
     const int16_t (*rotations)[4]; /* [frame_count][joint_count] */
+    uint32_t rotation_count;       /* frame_count * joint_count */
     const ff_pack_clip *clips;
     uint32_t clip_count;
     const ff_pack_plant *plants;

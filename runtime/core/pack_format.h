@@ -17,15 +17,16 @@
 
 #define FF_TAG(a, b, c, d) ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
 enum {
-    FF_SECTION_STRINGS = FF_TAG('S', 'T', 'R', 'S'),   /* char */
-    FF_SECTION_META = FF_TAG('M', 'E', 'T', 'A'),      /* char: provenance and settings as JSON text */
-    FF_SECTION_JOINTS = FF_TAG('J', 'N', 'T', 'S'),    /* ff_pack_joint */
-    FF_SECTION_POINTS = FF_TAG('P', 'N', 'T', 'S'),    /* ff_pack_point */
-    FF_SECTION_STREAMS = FF_TAG('S', 'T', 'R', 'M'),   /* ff_pack_stream */
-    FF_SECTION_FRAMES = FF_TAG('F', 'R', 'M', 'S'),    /* ff_pack_frame */
-    FF_SECTION_ROTATIONS = FF_TAG('R', 'O', 'T', 'S'), /* int16[4], joint_count per frame */
-    FF_SECTION_CLIPS = FF_TAG('C', 'L', 'I', 'P'),     /* ff_pack_clip */
-    FF_SECTION_PLANTS = FF_TAG('P', 'L', 'N', 'T'),    /* ff_pack_plant */
+    FF_SECTION_STRINGS = FF_TAG('S', 'T', 'R', 'S'), /* char */
+    FF_SECTION_META = FF_TAG('M', 'E', 'T', 'A'),    /* char: provenance and settings as JSON text */
+    FF_SECTION_JOINTS = FF_TAG('J', 'N', 'T', 'S'),  /* ff_pack_joint */
+    FF_SECTION_POINTS = FF_TAG('P', 'N', 'T', 'S'),  /* ff_pack_point */
+    FF_SECTION_STREAMS = FF_TAG('S', 'T', 'R', 'M'), /* ff_pack_stream */
+    FF_SECTION_FRAMES = FF_TAG('F', 'R', 'M', 'S'),  /* ff_pack_frame */
+    FF_SECTION_ROTATIONS =
+        FF_TAG('R', 'O', 'T', 'S'),                 /* int16[4] = 32767 (x, y, z, w); joint_count per frame */
+    FF_SECTION_CLIPS = FF_TAG('C', 'L', 'I', 'P'),  /* ff_pack_clip */
+    FF_SECTION_PLANTS = FF_TAG('P', 'L', 'N', 'T'), /* ff_pack_plant */
     FF_SECTION_ACTIONS = FF_TAG('A', 'C', 'T', 'N'),   /* ff_pack_action */
     FF_SECTION_COLLIDERS = FF_TAG('C', 'O', 'L', 'L'), /* ff_pack_collider */
     FF_SECTION_EXAMPLES = FF_TAG('E', 'X', 'M', 'P'),  /* ff_pack_example */

@@ -1,0 +1,295 @@
+#include "runtime/core/pack.h"
+
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/file.h"
+#include "runtime/core/base/memory.h"
+#include "runtime/core/pack_check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "packs are used in place: little-endian only");
+
+#define MAX_SECTIONS 64u
+#define MAX_ELEMENTS 0x7fffffffu
+
+/* What a section must look like. */
+typedef struct section_kind {
+    uint32_t tag, stride;
+    uint32_t min_count;
+    int required;
+} section_kind;
+
+enum {
+    STRINGS,
+    META,
+    JOINTS,
+    POINTS,
+    STREAMS,
+    FRAMES,
+    ROTATIONS,
+    CLIPS,
+    PLANTS,
+    ACTIONS,
+    COLLIDERS,
+    EXAMPLES,
+    FEET,
+    SIMPLICES,
+    HULL,
+    TRACKS,
+    KIND_COUNT
+};
+_Static_assert(KIND_COUNT == FF_PACK_SECTION_COUNT, "a kind of section is missing here");
+
+static const section_kind kinds[KIND_COUNT] = {
+    [STRINGS] = {FF_SECTION_STRINGS, 1, 1, 1},
+    [META] = {FF_SECTION_META, 1, 0, 0},
+    [JOINTS] = {FF_SECTION_JOINTS, sizeof(ff_pack_joint), 1, 1},
+    [POINTS] = {FF_SECTION_POINTS, sizeof(ff_pack_point), FF_POINT_COUNT, 1},
+    [STREAMS] = {FF_SECTION_STREAMS, sizeof(ff_pack_stream), 1, 1},
+    [FRAMES] = {FF_SECTION_FRAMES, sizeof(ff_pack_frame), 1, 1},
+    [ROTATIONS] = {FF_SECTION_ROTATIONS, 4 * sizeof(int16_t), 1, 1},
+    [CLIPS] = {FF_SECTION_CLIPS, sizeof(ff_pack_clip), 0, 0},
+    [PLANTS] = {FF_SECTION_PLANTS, sizeof(ff_pack_plant), 0, 0},
+    [ACTIONS] = {FF_SECTION_ACTIONS, sizeof(ff_pack_action), 0, 0},
+    [COLLIDERS] = {FF_SECTION_COLLIDERS, sizeof(ff_pack_collider), 0, 0},
+    [EXAMPLES] = {FF_SECTION_EXAMPLES, sizeof(ff_pack_example), 0, 0},
+    [FEET] = {FF_SECTION_FEET, sizeof(ff_pack_foot), 0, 0},
+    [SIMPLICES] = {FF_SECTION_SIMPLICES, sizeof(ff_pack_simplex), 0, 0},
+    [HULL] = {FF_SECTION_HULL, sizeof(ff_pack_point2), 0, 0},
+    [TRACKS] = {FF_SECTION_TRACKS, sizeof(ff_pack_track), 0, 0},
+};
+
+typedef struct section_view {
+    const unsigned char *data;
+    uint64_t count;
+    int present;
+} section_view;
+
+static void tag_text(uint32_t tag, char text[5])
+{
+    for (int i = 0; i < 4; ++i) {
+        unsigned char c = (unsigned char)(tag >> (8 * i));
+        text[i] = c >= 32 && c < 127 ? (char)c : '?';
+    }
+    text[4] = 0;
+}
+
+static ff_status check_header(const ff_pack *pack, ff_pack_header *header, ff_error *error)
+{
+    if (pack->size < sizeof *header)
+        return ff_fail_section(error, FF_ERR_PARSE, "header", pack->size,
+                               "the file ends after %llu bytes; a motion pack has a header of %zu bytes",
+                               (unsigned long long)pack->size, sizeof *header);
+    memcpy(header, pack->data, sizeof *header);
+    if (header->magic != FF_PACK_MAGIC)
+        return ff_fail_section(
+            error, FF_ERR_PARSE, "header", 0,
+            "this is not a motion pack (it does not begin with FOOFPACK); make one with footfall-pack build");
+    if (header->version != FF_PACK_VERSION)
+        return ff_fail_section(error, FF_ERR_UNSUPPORTED, "header", offsetof(ff_pack_header, version),
+                               "pack format version %u, this program reads version %u; build the pack again",
+                               header->version, FF_PACK_VERSION);
+    if (header->file_size != pack->size)
+        return ff_fail_section(error, FF_ERR_PARSE, "header", offsetof(ff_pack_header, file_size),
+                               "the header speaks of %llu bytes, the file has %llu: it was cut or grew; "
+                               "build or copy the pack again",
+                               (unsigned long long)header->file_size, (unsigned long long)pack->size);
+    if (header->section_count > MAX_SECTIONS ||
+        header->section_count > (pack->size - sizeof *header) / sizeof(ff_pack_section))
+        return ff_fail_section(error, FF_ERR_PARSE, "header", offsetof(ff_pack_header, section_count),
+                               "%u sections do not fit (at most %u)", header->section_count, MAX_SECTIONS);
+    uint64_t sum = XXH64(pack->data + sizeof *header, pack->size - sizeof *header, 0);
+    if (header->checksum != sum)
+        return ff_fail_section(error, FF_ERR_PARSE, "header", offsetof(ff_pack_header, checksum),
+                               "checksum %016llx, the bytes give %016llx: the file is damaged; build or copy "
+                               "the pack again",
+                               (unsigned long long)header->checksum, (unsigned long long)sum);
+    return FF_OK;
+}
+
+static int find_kind(uint32_t tag)
+{
+    for (int kind = 0; kind < KIND_COUNT; ++kind)
+        if (kinds[kind].tag == tag) return kind;
+    return -1;
+}
+
+/* One entry of the section table: at is its place in the file. */
+static ff_status check_section(const ff_pack *pack, uint64_t table_end, const ff_pack_section *section,
+                               uint64_t at, section_view *views, ff_error *error)
+{
+    char name[5];
+    tag_text(section->tag, name);
+    int kind = find_kind(section->tag);
+    if (kind < 0)
+        return ff_fail_section(error, FF_ERR_PARSE, name, at, "unknown kind of section in the table");
+    if (views[kind].present)
+        return ff_fail_section(error, FF_ERR_PARSE, name, at, "the section appears twice");
+    if (section->stride != kinds[kind].stride)
+        return ff_fail_section(error, FF_ERR_PARSE, name, at + offsetof(ff_pack_section, stride),
+                               "records of %u bytes, expected %u", section->stride, kinds[kind].stride);
+    if (section->count > MAX_ELEMENTS || section->count < kinds[kind].min_count)
+        return ff_fail_section(error, FF_ERR_RANGE, name, at + offsetof(ff_pack_section, count),
+                               "%llu records, expected %u to %u", (unsigned long long)section->count,
+                               kinds[kind].min_count, MAX_ELEMENTS);
+    if (section->size != section->count * section->stride) /* both below 2^32: no overflow */
+        return ff_fail_section(error, FF_ERR_PARSE, name, at + offsetof(ff_pack_section, size),
+                               "%llu bytes for %llu records of %u bytes", (unsigned long long)section->size,
+                               (unsigned long long)section->count, section->stride);
+    if (section->offset % FF_PACK_ALIGN != 0 || section->offset < table_end || section->offset > pack->size ||
+        section->size > pack->size - section->offset)
+        return ff_fail_section(error, FF_ERR_PARSE, name, at + offsetof(ff_pack_section, offset),
+                               "%llu bytes at %llu are not inside the file of %llu bytes on a %u-byte "
+                               "boundary after the section table",
+                               (unsigned long long)section->size, (unsigned long long)section->offset,
+                               (unsigned long long)pack->size, FF_PACK_ALIGN);
+    views[kind] = (section_view){pack->data + section->offset, section->count, 1};
+    return FF_OK;
+}
+
+static ff_status read_table(const ff_pack *pack, const ff_pack_header *header, section_view *views,
+                            ff_error *error)
+{
+    uint64_t table_end = sizeof *header + (uint64_t)header->section_count * sizeof(ff_pack_section);
+    uint64_t last_end = table_end;
+    for (uint32_t i = 0; i < header->section_count; ++i) {
+        uint64_t at = sizeof *header + (uint64_t)i * sizeof(ff_pack_section);
+        ff_pack_section section;
+        memcpy(&section, pack->data + at, sizeof section);
+        ff_status status = check_section(pack, last_end, &section, at, views, error);
+        if (status != FF_OK) return status;
+        last_end = section.offset + section.size; /* sections lie in table order, none over another */
+    }
+    for (int kind = 0; kind < KIND_COUNT; ++kind) {
+        if (views[kind].present || !kinds[kind].required) continue;
+        char name[5];
+        tag_text(kinds[kind].tag, name);
+        return ff_fail_section(error, FF_ERR_PARSE, name, sizeof *header, "this section is missing");
+    }
+    return FF_OK;
+}
+
+static void take_views(ff_pack *pack, const section_view *views)
+{
+    pack->strings = (const char *)views[STRINGS].data;
+    pack->string_size = views[STRINGS].count;
+    pack->meta = (const char *)views[META].data;
+    pack->meta_size = views[META].count;
+    pack->joints = (const ff_pack_joint *)(const void *)views[JOINTS].data;
+    pack->joint_count = (uint32_t)views[JOINTS].count;
+    pack->points = (const ff_pack_point *)(const void *)views[POINTS].data;
+    pack->point_count = (uint32_t)views[POINTS].count;
+    pack->streams = (const ff_pack_stream *)(const void *)views[STREAMS].data;
+    pack->stream_count = (uint32_t)views[STREAMS].count;
+    pack->frames = (const ff_pack_frame *)(const void *)views[FRAMES].data;
+    pack->frame_count = (uint32_t)views[FRAMES].count;
+    pack->rotations = (const int16_t(*)[4])(const void *)views[ROTATIONS].data;
+    pack->rotation_count = (uint32_t)views[ROTATIONS].count;
+    pack->clips = (const ff_pack_clip *)(const void *)views[CLIPS].data;
+    pack->clip_count = (uint32_t)views[CLIPS].count;
+    pack->plants = (const ff_pack_plant *)(const void *)views[PLANTS].data;
+    pack->plant_count = (uint32_t)views[PLANTS].count;
+    pack->actions = (const ff_pack_action *)(const void *)views[ACTIONS].data;
+    pack->action_count = (uint32_t)views[ACTIONS].count;
+    pack->colliders = (const ff_pack_collider *)(const void *)views[COLLIDERS].data;
+    pack->collider_count = (uint32_t)views[COLLIDERS].count;
+    pack->examples = (const ff_pack_example *)(const void *)views[EXAMPLES].data;
+    pack->example_count = (uint32_t)views[EXAMPLES].count;
+    pack->feet = (const ff_pack_foot *)(const void *)views[FEET].data;
+    pack->foot_count = (uint32_t)views[FEET].count;
+    pack->simplices = (const ff_pack_simplex *)(const void *)views[SIMPLICES].data;
+    pack->simplex_count = (uint32_t)views[SIMPLICES].count;
+    pack->hull = (const ff_pack_point2 *)(const void *)views[HULL].data;
+    pack->hull_count = (uint32_t)views[HULL].count;
+    pack->tracks = (const ff_pack_track *)(const void *)views[TRACKS].data;
+    pack->track_count = (uint32_t)views[TRACKS].count;
+}
+
+static ff_status read_pack(ff_pack *pack, ff_error *error)
+{
+    ff_pack_header header;
+    section_view views[KIND_COUNT];
+    memset(views, 0, sizeof views);
+    ff_status status = check_header(pack, &header, error);
+    if (status == FF_OK) status = read_table(pack, &header, views, error);
+    if (status != FF_OK) return status;
+    take_views(pack, views);
+    return ff_pack_check(pack, error);
+}
+
+ff_status ff_pack_open_memory(const void *data, size_t size, ff_pack **out, ff_error *error)
+{
+    *out = NULL;
+    if (!data) return ff_fail(error, FF_ERR_ARGUMENT, "no data given");
+    if ((uintptr_t)data % FF_PACK_ALIGN != 0)
+        return ff_fail(error, FF_ERR_ARGUMENT, "pack data must lie on a %u-byte boundary", FF_PACK_ALIGN);
+    ff_pack *pack = ff_calloc(1, sizeof *pack);
+    if (!pack) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory opening a pack");
+    pack->data = data;
+    pack->size = size;
+    ff_status status = read_pack(pack, error);
+    if (status != FF_OK) {
+        free(pack);
+        return status;
+    }
+    *out = pack;
+    return FF_OK;
+}
+
+ff_status ff_pack_open(const char *path, ff_pack **out, ff_error *error)
+{
+    *out = NULL;
+    if (!path) return ff_fail(error, FF_ERR_ARGUMENT, "no path given");
+    ff_file *file = ff_calloc(1, sizeof *file);
+    if (!file) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory opening %s", path);
+    ff_status status = ff_file_map(path, file, error);
+    if (status == FF_OK && !file->mapped) {
+        status = ff_fail_section(error, FF_ERR_PARSE, "header", 0, "the file is empty");
+    } else if (status == FF_OK) {
+        status = ff_pack_open_memory(file->data, file->size, out, error);
+    }
+    if (status != FF_OK) {
+        ff_error_in_file(error, path);
+        ff_file_unmap(file);
+        free(file);
+        return status;
+    }
+    (*out)->mapping = file;
+    return FF_OK;
+}
+
+void ff_pack_close(ff_pack *pack)
+{
+    if (!pack) return;
+    if (pack->mapping) {
+        ff_file_unmap(pack->mapping);
+        free(pack->mapping);
+    }
+    free(pack);
+}
+
+uint32_t ff_pack_joint_count(const ff_pack *pack)
+{
+    return pack->joint_count;
+}
+
+const char *ff_pack_joint_name(const ff_pack *pack, uint32_t joint)
+{
+    return joint < pack->joint_count ? ff_pack_string(pack, pack->joints[joint].name) : "";
+}
+
+int32_t ff_pack_joint_parent(const ff_pack *pack, uint32_t joint)
+{
+    return joint < pack->joint_count ? pack->joints[joint].parent : -1;
+}
+
+ff_vec3 ff_pack_joint_offset(const ff_pack *pack, uint32_t joint)
+{
+    if (joint >= pack->joint_count) return ff_v3(0.0, 0.0, 0.0);
+    const float *offset = pack->joints[joint].offset;
+    return ff_v3((double)offset[0], (double)offset[1], (double)offset[2]);
+}
