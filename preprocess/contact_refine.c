@@ -1,0 +1,215 @@
+#include "preprocess/contact.h"
+
+#include "preprocess/filter.h"
+
+/* All rules and limits here are those of the contact labels (labels README, "what a contact is"). */
+static const double SWING_REACH = 0.7; /* s: how far into the swing its peak is looked for */
+static const double HEEL_LOW = 0.05;   /* m: heel at contact, over its level in the contact */
+static const double BALL_LOW = 0.02;   /* m */
+static const double STILL = 0.3;       /* m/s: a point at rest */
+
+/* Up to three estimates of one event. */
+typedef struct votes {
+    int frame[3], count;
+} votes;
+
+static void vote(votes *v, int frame)
+{
+    v->frame[v->count++] = frame;
+}
+
+/* Median of three, mean of two. */
+static int decide(const votes *v, int otherwise, double rate, double *spread)
+{
+    *spread = 0.0;
+    if (v->count == 0) return otherwise;
+    int low = v->frame[0], high = v->frame[0], sum = 0;
+    for (int k = 0; k < v->count; ++k) {
+        low = v->frame[k] < low ? v->frame[k] : low;
+        high = v->frame[k] > high ? v->frame[k] : high;
+        sum += v->frame[k];
+    }
+    *spread = (high - low) / rate;
+    return v->count == 3 ? sum - low - high : (v->count == 2 ? sum / 2 : low);
+}
+
+static int peak_of(const double *values, int from, int to)
+{
+    int best = from;
+    for (int i = from; i <= to; ++i)
+        if (values[i] > values[best]) best = i;
+    return best;
+}
+
+static int clamp_frame(const ff_foot_signals *s, int i)
+{
+    return i < 0 ? 0 : (i >= s->count ? s->count - 1 : i);
+}
+
+/* The height at which each point rests in this contact: median over the frames in which heel and ball are slow, else
+ * over all of them. Sampled at up to LEVEL_SAMPLES frames. */
+static void find_levels(const ff_foot_signals *s, ff_contact *c)
+{
+    enum { LEVEL_SAMPLES = 256 };
+    double sample[LEVEL_SAMPLES];
+    int step = (c->last - c->first) / LEVEL_SAMPLES + 1;
+    for (int p = 0; p < FF_FOOT_POINT_COUNT; ++p) {
+        for (int pass = 0, m = 0; pass < 2 && m == 0; ++pass) {
+            for (int i = c->first; i <= c->last; i += step)
+                if (pass == 1 || (s->speed[FF_FOOT_HEEL][i] < STILL && s->speed[FF_FOOT_BALL][i] < STILL))
+                    sample[m++] = s->height[p][i];
+            if (m > 0) c->level[p] = ff_filter_quantile(sample, m, 0.5);
+        }
+    }
+}
+
+/* Vertical acceleration of a point. */
+static double rise(const ff_foot_signals *s, int p, int i)
+{
+    int b = clamp_frame(s, i - 1), a = clamp_frame(s, i + 1);
+    return s->point[p][a].y - 2.0 * s->point[p][i].y + s->point[p][b].y;
+}
+
+/* Toes over heel: falls while the foot turns down onto its sole. */
+static double pitch(const ff_foot_signals *s, int i)
+{
+    return s->height[FF_FOOT_BALL][i] - s->height[FF_FOOT_HEEL][i];
+}
+
+static double pitch_rate(const ff_foot_signals *s, int i)
+{
+    return pitch(s, clamp_frame(s, i + 1)) - pitch(s, clamp_frame(s, i - 1));
+}
+
+/* First frame after the swing's peak at which the point is slow and low. -1: never. */
+static int comes_to_rest(const ff_foot_signals *s, const ff_contact *c, int p, int peak, double limit,
+                         double low)
+{
+    for (int i = peak; i <= c->last; ++i)
+        if (s->speed[p][i] < limit && s->height[p][i] < c->level[p] + low) return i;
+    return -1;
+}
+
+static int strongest_rise(const ff_foot_signals *s, int p, int around, int reach)
+{
+    int best = around;
+    for (int i = clamp_frame(s, around - reach); i <= clamp_frame(s, around + reach); ++i)
+        if (rise(s, p, i) > rise(s, p, best)) best = i;
+    return best;
+}
+
+/* Start of the turn down onto the sole: where the pitch rate first reaches a share of its strongest. -1: no turn. */
+static int turns_down(const ff_foot_signals *s, int around, int before, int after)
+{
+    int low = clamp_frame(s, around - before), best = around;
+    for (int i = low; i <= clamp_frame(s, around + after); ++i)
+        if (pitch_rate(s, i) < pitch_rate(s, best)) best = i;
+    double strongest = pitch_rate(s, best);
+    if (strongest * s->rate > -0.2) return -1; /* m/s of the ball about the heel */
+    int i = best;
+    while (i > low && pitch_rate(s, i - 1) < 0.3 * strongest)
+        --i;
+    return i;
+}
+
+static void find_start(const ff_foot_signals *s, int previous_last, double running, ff_contact *c)
+{
+    if (c->first == 0) return;
+    int from = (int)ff_max(previous_last + 1, c->first - SWING_REACH * s->rate);
+    from = clamp_frame(s, from);
+    int peak = peak_of(s->speed[FF_FOOT_HEEL], from, c->first);
+    double limit = ff_clamp(0.25 * s->speed[FF_FOOT_HEEL][peak], 0.35, ff_lerp(0.9, 1.7, running));
+    votes v = {.count = 0};
+    int heel = comes_to_rest(s, c, FF_FOOT_HEEL, peak, limit, HEEL_LOW);
+    int ball_peak = peak_of(s->speed[FF_FOOT_BALL], from, c->first);
+    double ball_limit = ff_clamp(0.25 * s->speed[FF_FOOT_BALL][ball_peak], 0.35, ff_lerp(0.9, 1.7, running));
+    int ball = comes_to_rest(s, c, FF_FOOT_BALL, ball_peak, ball_limit, BALL_LOW);
+    int late = (int)(0.03 * s->rate), reach = (int)(0.06 * s->rate + 0.5);
+    if (ball >= 0 && (heel < 0 || ball + late < heel)) {
+        vote(&v, ball);
+        vote(&v, strongest_rise(s, FF_FOOT_BALL, ball, reach));
+    } else if (heel >= 0) {
+        vote(&v, heel);
+        vote(&v, strongest_rise(s, FF_FOOT_HEEL, heel, reach));
+        int turn = turns_down(s, heel, reach, 2 * reach);
+        if (turn >= 0) vote(&v, turn);
+    }
+    c->start_votes = v.count;
+    int first = decide(&v, c->first, s->rate, &c->start_spread);
+    c->first = first < c->last ? first : c->last;
+}
+
+/* Last frame before the swing's peak at which the point was slow. */
+static int leaves_rest(const ff_foot_signals *s, const ff_contact *c, int p, int peak, double limit)
+{
+    int i = peak;
+    while (i > c->first && s->speed[p][i] >= limit)
+        --i;
+    return i;
+}
+
+static double push(const ff_foot_signals *s, int i)
+{
+    const ff_vec3 *toe = s->point[FF_FOOT_TOE];
+    ff_vec3 v1 = ff_filter_velocity(toe, s->count, clamp_frame(s, i + 1), s->rate);
+    ff_vec3 v0 = ff_filter_velocity(toe, s->count, clamp_frame(s, i - 1), s->rate);
+    return ff_length2(ff_plane(ff_sub3(v1, v0)));
+}
+
+/* Half height of the rise of the toe's horizontal acceleration. */
+static int half_push(const ff_foot_signals *s, int around, int before, int after)
+{
+    int best = around, low = clamp_frame(s, around - before);
+    for (int i = low; i <= clamp_frame(s, around + after); ++i)
+        if (push(s, i) > push(s, best)) best = i;
+    int i = best;
+    while (i > low && push(s, i) > 0.5 * push(s, best))
+        --i;
+    return i;
+}
+
+static void find_end(const ff_foot_signals *s, int next_first, double running, ff_contact *c)
+{
+    if (c->last == s->count - 1) return;
+    int to = clamp_frame(s, (int)ff_min(next_first - 1, c->last + SWING_REACH * s->rate));
+    int peak = peak_of(s->speed[FF_FOOT_BALL], c->last, to > c->last ? to : c->last);
+    double limit = ff_clamp(0.25 * s->speed[FF_FOOT_BALL][peak], 0.35, ff_lerp(0.9, 1.15, running));
+    votes v = {.count = 0};
+    int toe = leaves_rest(s, c, FF_FOOT_TOE, peak, limit);
+    vote(&v, toe);
+    vote(&v, leaves_rest(s, c, FF_FOOT_BALL, peak, 1.15 * limit));
+    vote(&v, half_push(s, toe, (int)(0.06 * s->rate), (int)(0.12 * s->rate)));
+    c->end_votes = v.count;
+    int last = decide(&v, c->last, s->rate, &c->end_spread);
+    c->last = last > c->first ? last : c->first;
+}
+
+static void find_flat(const ff_foot_signals *s, double running, ff_contact *c)
+{
+    double ball = ff_lerp(0.30, 0.6, running), heel = ff_lerp(0.35, 0.7, running);
+    int begin = -1;
+    c->flat_first = c->flat_last = -1;
+    for (int i = c->first; i <= c->last + 1; ++i) {
+        bool flat = i <= c->last && s->speed[FF_FOOT_BALL][i] < ball && s->speed[FF_FOOT_HEEL][i] < heel &&
+                    s->height[FF_FOOT_HEEL][i] < c->level[FF_FOOT_HEEL] + 0.015 &&
+                    s->height[FF_FOOT_BALL][i] < c->level[FF_FOOT_BALL] + 0.02;
+        if (flat && begin < 0) begin = i;
+        if (!flat && begin >= 0) {
+            if (i - begin > c->flat_last - c->flat_first + 1 || c->flat_first < 0) {
+                c->flat_first = begin;
+                c->flat_last = i - 1;
+            }
+            begin = -1;
+        }
+    }
+}
+
+void ff_contact_refine(const ff_foot_signals *s, int previous_last, int next_first, double running,
+                       ff_contact *c)
+{
+    find_levels(s, c);
+    find_start(s, previous_last, running, c);
+    find_end(s, next_first, running, c);
+    find_levels(s, c);
+    find_flat(s, running, c);
+}

@@ -1,0 +1,101 @@
+#include "preprocess/filter.h"
+
+#include <stdlib.h>
+
+/* One biquad pass in the transposed direct form II, started as if the first value had always been there. */
+static void biquad(double *x, int count, ptrdiff_t stride, const double b[3], const double a[3])
+{
+    double first = x[0];
+    double s2 = first * (b[2] - a[2]);
+    double s1 = first * (b[1] - a[1]) + s2;
+    for (int i = 0; i < count; ++i, x += stride) {
+        double in = *x;
+        double out = b[0] * in + s1;
+        s1 = b[1] * in - a[1] * out + s2;
+        s2 = b[2] * in - a[2] * out;
+        *x = out;
+    }
+}
+
+void ff_filter_low_pass(double *values, int count, int stride, double rate, double cutoff)
+{
+    /* Two passes lower the -3 dB point of each by (sqrt(2) - 1)^(1/4) (Winter, Biomechanics, section 3.4.4.2). */
+    double each = cutoff / 0.8022;
+    if (count < 4 || each >= 0.45 * rate) return;
+    double s, c;
+    ff_sincos(FF_PI * each / rate, &s, &c);
+    double k = s / c, q = 1.0 / (1.0 + sqrt(2.0) * k + k * k);
+    double b[3] = {k * k * q, 2.0 * k * k * q, k * k * q};
+    double a[3] = {1.0, 2.0 * (k * k - 1.0) * q, (1.0 - sqrt(2.0) * k + k * k) * q};
+    biquad(values, count, stride, b, a);
+    biquad(values + (ptrdiff_t)(count - 1) * stride, count, -(ptrdiff_t)stride, b, a);
+}
+
+void ff_filter_low_pass3(ff_vec3 *points, int count, double rate, double cutoff)
+{
+    ff_filter_low_pass(&points->x, count, 3, rate, cutoff);
+    ff_filter_low_pass(&points->y, count, 3, rate, cutoff);
+    ff_filter_low_pass(&points->z, count, 3, rate, cutoff);
+}
+
+/* Distance of a point from the middle of its neighbours. */
+static double off_line(const ff_vec3 *points, int count, int i)
+{
+    if (i < 1 || i + 1 >= count) return 0.0;
+    return ff_length3(ff_sub3(points[i], ff_lerp3(points[i - 1], points[i + 1], 0.5)));
+}
+
+void ff_filter_despike(ff_vec3 *points, int count, double rate)
+{
+    /* 300 m/s2 is three times what feet reach when they strike the floor; 1 cm is far above marker noise. */
+    double limit = 0.01 + 150.0 / (rate * rate);
+    for (int i = 1; i + 1 < count; ++i) {
+        double here = off_line(points, count, i);
+        if (here > limit && here >= off_line(points, count, i - 1) && here >= off_line(points, count, i + 1))
+            points[i] = ff_lerp3(points[i - 1], points[i + 1], 0.5);
+    }
+}
+
+static ff_vec3 cubic(ff_vec3 p0, ff_vec3 p1, ff_vec3 p2, ff_vec3 p3, double t)
+{
+    /* Catmull-Rom: slopes are central differences. */
+    ff_vec3 m1 = ff_scale3(ff_sub3(p2, p0), 0.5), m2 = ff_scale3(ff_sub3(p3, p1), 0.5);
+    double t2 = t * t, t3 = t2 * t;
+    ff_vec3 p = ff_scale3(p1, 2.0 * t3 - 3.0 * t2 + 1.0);
+    p = ff_madd3(p, m1, t3 - 2.0 * t2 + t);
+    p = ff_madd3(p, p2, 3.0 * t2 - 2.0 * t3);
+    return ff_madd3(p, m2, t3 - t2);
+}
+
+void ff_filter_upsample(const ff_vec3 *in, int count, int factor, ff_vec3 *out)
+{
+    for (int i = 0; i + 1 < count; ++i) {
+        ff_vec3 p0 = in[i > 0 ? i - 1 : 0], p3 = in[i + 2 < count ? i + 2 : count - 1];
+        for (int k = 0; k < factor; ++k)
+            out[i * factor + k] = cubic(p0, in[i], in[i + 1], p3, (double)k / factor);
+    }
+    out[(count - 1) * factor] = in[count - 1];
+}
+
+ff_vec3 ff_filter_velocity(const ff_vec3 *points, int count, int index, double rate)
+{
+    int before = index > 0 ? index - 1 : 0;
+    int after = index + 1 < count ? index + 1 : count - 1;
+    if (after == before) return ff_v3(0.0, 0.0, 0.0);
+    return ff_scale3(ff_sub3(points[after], points[before]), rate / (after - before));
+}
+
+static int compare(const void *x, const void *y)
+{
+    double a = *(const double *)x, b = *(const double *)y;
+    return (a > b) - (a < b);
+}
+
+double ff_filter_quantile(double *values, int count, double share)
+{
+    qsort(values, (size_t)count, sizeof *values, compare);
+    double at = ff_clamp(share, 0.0, 1.0) * (count - 1);
+    int low = (int)at;
+    int high = low + 1 < count ? low + 1 : low;
+    return ff_lerp(values[low], values[high], at - low);
+}
