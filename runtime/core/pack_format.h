@@ -200,7 +200,11 @@ typedef struct ff_pack_foot {
 } ff_pack_foot;
 
 /* Simplex of examples in (v_forward, v_left, turn_rate), for barycentric blending within one gait class;
- * vertex count 1 to 4, unused are -1. */
+ * vertex count 1 to 4, unused are -1. What blending needs of the walks' simplices: tetrahedra wherever possible (flat
+ * simplices are only projected onto), their union covering (0, 0, 0) with that point as a vertex: an example that
+ * steps in place at zero rates (feet at their natural places and flat, feet rising some 4 cm in turn, hips and arms
+ * nearly still), or else the idle example, which is then sampled on its own clock. Standing uses the idle example
+ * (FF_EXAMPLE_IDLE) in either case; it need not be in a simplex. */
 typedef struct ff_pack_simplex {
     int32_t vertex[4];
     uint32_t gait;
