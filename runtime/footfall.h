@@ -22,6 +22,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) /* what the shared library shows; everything else is compiled hidden */
+#endif
 
 #define FF_VERSION "0.1.0"
 
@@ -183,6 +186,9 @@ typedef struct ff_crowd_timings {
 } ff_crowd_timings;
 ff_crowd_timings ff_crowd_time_spent(const ff_crowd *crowd);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif
