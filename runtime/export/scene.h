@@ -1,0 +1,84 @@
+/* scene.h - who starts where and wants to go where, from a JSON file (runtime/scenes/README.md lists the keys). */
+#ifndef FF_SCENE_H
+#define FF_SCENE_H
+
+#include "runtime/core/base/memory.h"
+#include "runtime/tool/json.h"
+
+typedef enum ff_scene_kind {
+    FF_SCENE_CIRCLE,        /* everyone to the opposite side of a circle */
+    FF_SCENE_TWO_WAY,       /* two blocks whose paths cross at a right angle */
+    FF_SCENE_BIDIRECTIONAL, /* two blocks head-on in a corridor */
+    FF_SCENE_FOUR_WAY,      /* four blocks from corners of a square to the opposite ones */
+    FF_SCENE_CUSTOM,        /* agents one by one */
+    FF_SCENE_KIND_COUNT
+} ff_scene_kind;
+
+typedef struct ff_scene_agent {
+    ff_vec2 position, goal; /* m */
+    double heading;         /* rad */
+    double preferred_speed; /* m/s */
+    double radius;          /* m */
+    double goal_tolerance;  /* m */
+    uint32_t group;         /* which block it starts in; on the circle its own number */
+} ff_scene_agent;
+
+typedef struct ff_scene_wall {
+    ff_vec2 p, q; /* m */
+} ff_scene_wall;
+
+/* What the file says, before anyone is placed. Sizes in m; NAN = not given, the layout chooses. */
+typedef struct ff_scene_def {
+    ff_scene_kind kind;
+    char title[96];
+    double seconds, step;
+    uint64_t seed;
+    bool leave; /* agents leave the scene when they reach their goals */
+    int64_t agents;
+    double agent_radius, preferred_speed, speed_spread, goal_tolerance;
+    double radius, spacing, jitter, distance, square, corridor_width, corridor_length;
+    ff_array walls; /* ff_scene_wall */
+    ff_array fixed; /* ff_scene_agent, of a custom scene */
+} ff_scene_def;
+
+typedef struct ff_scene {
+    ff_scene_kind kind;
+    char title[96];
+    double seconds, step;
+    uint64_t seed;
+    bool leave;
+    ff_array agents; /* ff_scene_agent */
+    ff_array walls;  /* ff_scene_wall */
+    uint32_t groups;
+} ff_scene;
+
+const char *ff_scene_kind_name(ff_scene_kind kind); /* as in files: "two_way" */
+
+/* Read a scene file strictly: an unknown key or a value of the wrong type is an error at its line. */
+ff_status ff_scene_def_load(const char *path, ff_scene_def *out, ff_error *error);
+ff_status ff_scene_def_parse(const char *text, size_t size, const char *name, ff_scene_def *out,
+                             ff_error *error);
+void ff_scene_def_free(ff_scene_def *def);
+
+/* Place everyone. Fails when two agents would start inside each other. */
+ff_status ff_scene_create(const ff_scene_def *def, ff_scene *out, ff_error *error);
+void ff_scene_free(ff_scene *scene);
+
+static inline uint32_t ff_scene_agent_count(const ff_scene *scene)
+{
+    return (uint32_t)scene->agents.count;
+}
+static inline const ff_scene_agent *ff_scene_agents(const ff_scene *scene)
+{
+    return scene->agents.data;
+}
+static inline uint32_t ff_scene_wall_count(const ff_scene *scene)
+{
+    return (uint32_t)scene->walls.count;
+}
+static inline const ff_scene_wall *ff_scene_walls(const ff_scene *scene)
+{
+    return scene->walls.data;
+}
+
+#endif
