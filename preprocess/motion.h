@@ -17,9 +17,11 @@ typedef struct ff_rig {
     double leg;                    /* m, thigh + shank */
 } ff_rig;
 
+/* Frame k is frame k of the clip; leading rest frames of the file hold the first real pose instead. */
 typedef struct ff_motion {
     int frame_count;
-    double frame_time;  /* s: the clip's own */
+    double frame_time; /* s: the clip's own */
+    double scale; /* rig leg over the clip's own leg: what positions in the clip's world were multiplied by */
     ff_vec3 *root;      /* [frame_count] x = a (m), y = b (m), z = heading (rad, unwrapped) */
     ff_vec3 *hips;      /* [frame_count] x = forward, y = left of the root, z = height (m) */
     ff_quat *rotations; /* [frame_count][FF_ROLE_JOINT_COUNT] local; joint 0 relative to the root's heading */
@@ -28,8 +30,13 @@ typedef struct ff_motion {
 /* Median of the clips' own proportions, made symmetric. */
 ff_status ff_rig_from_clips(const ff_clip *const *clips, int clip_count, ff_rig *out, ff_error *error);
 
+/* Where the points of the standing rig are, [FF_BODY_COUNT]. */
+void ff_rig_rest_pose(const ff_rig *rig, ff_vec3 *positions);
+/* Points [FF_BODY_COUNT] from the position of the hips and world rotations [FF_ROLE_JOINT_COUNT]. */
+void ff_rig_pose(const ff_rig *rig, ff_vec3 hips, const ff_quat *world, ff_vec3 *positions);
+
 /* Bring a clip onto the rig: limb directions copied by role (smallest rotation between rest directions), root path
- * scaled by leg length, floor levelled by the plants' plane. Root frame as algorithms A.4: hips low-passed twice over
+ * scaled by leg length, floor levelled by the plants' plane, planted balls at the rig's rest height. Root frame as algorithms A.4: hips low-passed twice over
  * 0.25 s, facing from hips and shoulders. The caller frees *out with ff_motion_free. */
 ff_status ff_motion_from_clip(const ff_rig *rig, const ff_clip *clip, const ff_plants *plants, ff_motion *out,
                               ff_error *error);
