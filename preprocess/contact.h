@@ -11,7 +11,6 @@ typedef struct ff_contact {
     double level[FF_FOOT_POINT_COUNT]; /* m, at which the points rest in this contact */
     int flat_first, flat_last;         /* -1, -1: never flat and still */
     double start_spread, end_spread;   /* s, largest minus smallest estimate */
-    int start_votes, end_votes;        /* number of estimates */
 } ff_contact;
 
 /* Where no part of the foot moves fast: contacts by velocity alone. Writes at most capacity, returns the number. */

@@ -107,7 +107,7 @@ static int turns_down(const ff_foot_signals *s, int around, int before, int afte
     double strongest = pitch_rate(s, best);
     if (strongest * s->rate > -0.2) return -1; /* m/s of the ball about the heel */
     int i = best;
-    while (i > low && pitch_rate(s, i - 1) < 0.3 * strongest)
+    while (i > low && pitch_rate(s, i - 1) < 0.6 * strongest)
         --i;
     return i;
 }
@@ -124,7 +124,7 @@ static void find_start(const ff_foot_signals *s, int previous_last, double runni
     int ball_peak = peak_of(s->speed[FF_FOOT_BALL], from, c->first);
     double ball_limit = ff_clamp(0.25 * s->speed[FF_FOOT_BALL][ball_peak], 0.35, ff_lerp(0.9, 1.7, running));
     int ball = comes_to_rest(s, c, FF_FOOT_BALL, ball_peak, ball_limit, BALL_LOW);
-    int late = (int)(0.03 * s->rate), reach = (int)(0.06 * s->rate + 0.5);
+    int late = (int)(0.03 * s->rate), reach = (int)(0.05 * s->rate + 0.5);
     if (ball >= 0 && (heel < 0 || ball + late < heel)) {
         vote(&v, ball);
         vote(&v, strongest_rise(s, FF_FOOT_BALL, ball, reach));
@@ -134,7 +134,6 @@ static void find_start(const ff_foot_signals *s, int previous_last, double runni
         int turn = turns_down(s, heel, reach, 2 * reach);
         if (turn >= 0) vote(&v, turn);
     }
-    c->start_votes = v.count;
     int first = decide(&v, c->first, s->rate, &c->start_spread);
     c->first = first < c->last ? first : c->last;
 }
@@ -168,18 +167,27 @@ static int half_push(const ff_foot_signals *s, int around, int before, int after
     return i;
 }
 
+/* The clip may end between toe-off and the peak of the swing: the swing before the contact then tells how fast the
+ * foot will become. */
+static double swing_peak(const ff_foot_signals *s, const ff_contact *c, int peak)
+{
+    const double *speed = s->speed[FF_FOOT_BALL];
+    if (peak < s->count - 1) return speed[peak];
+    int before = clamp_frame(s, (int)(c->first - SWING_REACH * s->rate));
+    return ff_max(speed[peak], speed[peak_of(speed, before, c->first)]);
+}
+
 static void find_end(const ff_foot_signals *s, int next_first, double running, ff_contact *c)
 {
-    if (c->last == s->count - 1) return;
     int to = clamp_frame(s, (int)ff_min(next_first - 1, c->last + SWING_REACH * s->rate));
     int peak = peak_of(s->speed[FF_FOOT_BALL], c->last, to > c->last ? to : c->last);
-    double limit = ff_clamp(0.25 * s->speed[FF_FOOT_BALL][peak], 0.35, ff_lerp(0.9, 1.15, running));
+    double limit = ff_clamp(0.25 * swing_peak(s, c, peak), 0.35, ff_lerp(0.9, 1.15, running));
+    if (c->last == s->count - 1 && s->speed[FF_FOOT_TOE][peak] < limit) return; /* goes on after the clip */
     votes v = {.count = 0};
     int toe = leaves_rest(s, c, FF_FOOT_TOE, peak, limit);
     vote(&v, toe);
     vote(&v, leaves_rest(s, c, FF_FOOT_BALL, peak, 1.15 * limit));
-    vote(&v, half_push(s, toe, (int)(0.06 * s->rate), (int)(0.12 * s->rate)));
-    c->end_votes = v.count;
+    if (c->last < s->count - 1) vote(&v, half_push(s, toe, (int)(0.06 * s->rate), (int)(0.12 * s->rate)));
     int last = decide(&v, c->last, s->rate, &c->end_spread);
     c->last = last > c->first ? last : c->first;
 }
