@@ -2,19 +2,48 @@
 
 #include <stdlib.h>
 
-/* One biquad pass in the transposed direct form II, started as if the first value had always been there. */
-static void biquad(double *x, int count, ptrdiff_t stride, const double b[3], const double a[3])
+/* A biquad in the transposed direct form II. */
+typedef struct biquad {
+    double b[3], a[3], s1, s2;
+} biquad;
+
+/* As if x had always been there. */
+static void settle(biquad *q, double x)
 {
-    double first = x[0];
-    double s2 = first * (b[2] - a[2]);
-    double s1 = first * (b[1] - a[1]) + s2;
-    for (int i = 0; i < count; ++i, x += stride) {
-        double in = *x;
-        double out = b[0] * in + s1;
-        s1 = b[1] * in - a[1] * out + s2;
-        s2 = b[2] * in - a[2] * out;
-        *x = out;
-    }
+    q->s2 = x * (q->b[2] - q->a[2]);
+    q->s1 = x * (q->b[1] - q->a[1]) + q->s2;
+}
+
+static double filtered(biquad *q, double in)
+{
+    double out = q->b[0] * in + q->s1;
+    q->s1 = q->b[1] * in - q->a[1] * out + q->s2;
+    q->s2 = q->b[2] * in - q->a[2] * out;
+    return out;
+}
+
+/* Forwards and backwards over a signal that goes on beyond its ends as its own point reflection, so that what moves
+ * there keeps moving. */
+static void both_ways(biquad *q, double *x, int count, ptrdiff_t stride)
+{
+    enum { PAD = 64 };
+    double tail[PAD];
+    int pad = count - 1 < PAD ? count - 1 : PAD;
+    double first = x[0], last = x[(count - 1) * stride];
+    for (int k = 0; k < pad; ++k)
+        tail[k] = 2.0 * last - x[(count - 2 - k) * stride];
+    settle(q, 2.0 * first - x[pad * stride]);
+    for (int k = pad; k > 0; --k)
+        filtered(q, 2.0 * first - x[k * stride]);
+    for (int i = 0; i < count; ++i)
+        x[i * stride] = filtered(q, x[i * stride]);
+    for (int k = 0; k < pad; ++k)
+        tail[k] = filtered(q, tail[k]);
+    settle(q, tail[pad - 1]);
+    for (int k = pad - 1; k >= 0; --k)
+        filtered(q, tail[k]);
+    for (int i = count - 1; i >= 0; --i)
+        x[i * stride] = filtered(q, x[i * stride]);
 }
 
 void ff_filter_low_pass(double *values, int count, int stride, double rate, double cutoff)
@@ -24,11 +53,10 @@ void ff_filter_low_pass(double *values, int count, int stride, double rate, doub
     if (count < 4 || each >= 0.45 * rate) return;
     double s, c;
     ff_sincos(FF_PI * each / rate, &s, &c);
-    double k = s / c, q = 1.0 / (1.0 + sqrt(2.0) * k + k * k);
-    double b[3] = {k * k * q, 2.0 * k * k * q, k * k * q};
-    double a[3] = {1.0, 2.0 * (k * k - 1.0) * q, (1.0 - sqrt(2.0) * k + k * k) * q};
-    biquad(values, count, stride, b, a);
-    biquad(values + (ptrdiff_t)(count - 1) * stride, count, -(ptrdiff_t)stride, b, a);
+    double k = s / c, g = 1.0 / (1.0 + sqrt(2.0) * k + k * k);
+    biquad q = {.b = {k * k * g, 2.0 * k * k * g, k * k * g},
+                .a = {1.0, 2.0 * (k * k - 1.0) * g, (1.0 - sqrt(2.0) * k + k * k) * g}};
+    both_ways(&q, values, count, stride);
 }
 
 void ff_filter_low_pass3(ff_vec3 *points, int count, double rate, double cutoff)
