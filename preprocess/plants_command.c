@@ -12,7 +12,7 @@
 
 static const char *const PROGRAM = "footfall-pack";
 
-typedef enum layout { TABLE, CSV } layout;
+typedef enum plants_layout { TABLE, CSV } plants_layout;
 
 static void print_csv(const ff_clip *clip, const ff_plants *plants)
 {
@@ -39,7 +39,7 @@ static void print_table(const ff_clip *clip, const ff_plants *plants)
     }
 }
 
-static ff_status print_clip(const ff_catalogue_entry *entry, layout layout, ff_error *error)
+static ff_status print_clip(const ff_catalogue_entry *entry, plants_layout layout, ff_error *error)
 {
     ff_clip clip;
     ff_status status = ff_clip_load(entry->path, &entry->options, &clip, error);
@@ -59,7 +59,7 @@ static ff_status print_clip(const ff_catalogue_entry *entry, layout layout, ff_e
 }
 
 /* Every clip is tried; the ones that fail are named on stderr and make the exit status 1. */
-static int print_all(const char *const *inputs, int count, layout layout, bool quiet)
+static int print_all(const char *const *inputs, int count, plants_layout layout, bool quiet)
 {
     ff_error error;
     ff_catalogue catalogue;
