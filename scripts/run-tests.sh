@@ -12,6 +12,10 @@ log_of() { # BUILD:PROGRAM
     echo "${1%%:*}/logs/$(echo "${1#*:}" | tr '/' '-').log"
 }
 
+# A refused allocation is an answer the code must handle, not an end; leaks are findings.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-allocator_may_return_null=1:detect_leaks=1:detect_stack_use_after_return=1}"
+export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
+
 fuzz() {
     target=$(basename "$1")
     found=$FF_BUILD/found-$target

@@ -24,7 +24,7 @@ static ff_status fail_system(ff_error *error, const char *path, const char *doin
 ff_status ff_file_map(const char *path, ff_file *out, ff_error *error)
 {
     *out = (ff_file){"", 0, 0};
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe without a writer must not hang us */
     if (fd < 0) return fail_system(error, path, "open this file");
     struct stat info;
     ff_status status = FF_OK;

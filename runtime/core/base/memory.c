@@ -58,5 +58,7 @@ void ff_array_free(ff_array *array)
 
 void *ff_calloc(size_t count, size_t elem_size)
 {
+    if (elem_size && count > SIZE_MAX / elem_size)
+        return NULL; /* sanitizers stop the program in calloc itself */
     return calloc(count ? count : 1, elem_size ? elem_size : 1);
 }

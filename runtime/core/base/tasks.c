@@ -21,14 +21,15 @@ struct ff_tasks {
     void (*function)(void *context, uint32_t index);
     void *context;
     uint32_t count, grain;
-    atomic_uint next;
+    _Atomic uint64_t next; /* 64 bits: every thread runs past count once, which must not wrap */
 };
 
 static void run_share(ff_tasks *tasks)
 {
     for (;;) {
-        uint32_t first = atomic_fetch_add(&tasks->next, tasks->grain);
-        if (first >= tasks->count) return;
+        uint64_t start = atomic_fetch_add(&tasks->next, tasks->grain);
+        if (start >= tasks->count) return;
+        uint32_t first = (uint32_t)start;
         uint32_t end = tasks->count - first < tasks->grain ? tasks->count : first + tasks->grain;
         for (uint32_t i = first; i < end; ++i)
             tasks->function(tasks->context, i);
