@@ -119,6 +119,8 @@ typedef struct ff_crowd_def {
     uint32_t threads;       /* own pool of this many threads; 1 = the caller's only. Ignored if tasks set */
     ff_parallel_for *tasks; /* caller's scheduler, or NULL */
     void *task_pool;        /* passed to tasks */
+    double keep_right;      /* rad, by which people turn aside for those they meet; default 0.30, negative =
+                               to the left. 0 makes them meet head on and jam: a convention is needed */
     uint32_t cookie;        /* set by ff_crowd_def_default(); leave it alone */
 } ff_crowd_def;
 

@@ -1,0 +1,316 @@
+/* Crowds: creation, agents, walls and questions. The step is in crowd_step.c. */
+#include "runtime/core/crowd_state.h"
+
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/random.h"
+
+#include <stdlib.h>
+
+#define CROWD_COOKIE 0x46464344u
+#define AGENT_COOKIE 0x46464144u
+#define AGENTS_MAX 1000000u
+#define WALLS_MAX 1000000u
+#define STEP_MAX 0.25      /* s: longer than that, people walk past each other unseen */
+#define PLANE_MAX 1e6      /* m: millimetres must survive in a double many times over */
+#define TOLERANCE_MIN 0.05 /* m */
+#define ARRAY_ALIGN 64
+
+ff_crowd_def ff_crowd_def_default(void)
+{
+    return (ff_crowd_def){.max_agents = 1000,
+                          .max_walls = 1000,
+                          .step = 1.0 / 30.0,
+                          .seed = 1,
+                          .threads = 1,
+                          .keep_right = 0.30,
+                          .cookie = CROWD_COOKIE};
+}
+
+ff_agent_def ff_agent_def_default(void)
+{
+    return (ff_agent_def){
+        .goal_tolerance = 0.5, .preferred_speed = 1.3, .radius = 0.3, .cookie = AGENT_COOKIE};
+}
+
+static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, ff_error *error)
+{
+    if (!pack || !def) return ff_fail(error, FF_ERR_ARGUMENT, "a crowd needs a pack and a definition");
+    if (def->cookie != CROWD_COOKIE)
+        return ff_fail(error, FF_ERR_ARGUMENT,
+                       "the crowd's definition was not made by ff_crowd_def_default()");
+    if (def->max_agents < 1 || def->max_agents > AGENTS_MAX)
+        return ff_fail(error, FF_ERR_RANGE, "max_agents is %u; expected 1 to %u", def->max_agents,
+                       AGENTS_MAX);
+    if (def->max_walls > WALLS_MAX)
+        return ff_fail(error, FF_ERR_RANGE, "max_walls is %u; expected at most %u", def->max_walls,
+                       WALLS_MAX);
+    if (!(def->step > 0.0 && def->step <= STEP_MAX))
+        return ff_fail(error, FF_ERR_RANGE, "step is %g s; expected more than 0, at most %g", def->step,
+                       STEP_MAX);
+    if (!(fabs(def->keep_right) <= 0.5 * FF_PI))
+        return ff_fail(error, FF_ERR_RANGE, "keep_right is %g rad; expected -1.57 to 1.57", def->keep_right);
+    return FF_OK;
+}
+
+/* Everything that is sized by the definition. */
+static bool take_memory(ff_crowd *crowd)
+{
+    size_t n = crowd->def.max_agents;
+    ff_arena *arena = &crowd->arena;
+    crowd->free_slots = ff_arena_push(arena, n, sizeof *crowd->free_slots, ARRAY_ALIGN);
+    crowd->generation = ff_arena_push(arena, n, sizeof *crowd->generation, ARRAY_ALIGN);
+    crowd->alive = ff_arena_push(arena, n, sizeof *crowd->alive, ARRAY_ALIGN);
+    crowd->traits = ff_arena_push(arena, n, sizeof *crowd->traits, ARRAY_ALIGN);
+    crowd->minds = ff_arena_push(arena, n, sizeof *crowd->minds, ARRAY_ALIGN);
+    crowd->bodies = ff_arena_push(arena, n, sizeof *crowd->bodies, ARRAY_ALIGN);
+    crowd->velocity = ff_arena_push(arena, n, sizeof *crowd->velocity, ARRAY_ALIGN);
+    crowd->gaits = ff_arena_push(arena, n, crowd->gait_size, ARRAY_ALIGN);
+    crowd->unsorted = ff_arena_push(arena, n, sizeof *crowd->unsorted, ARRAY_ALIGN);
+    crowd->neighbours = ff_arena_push(arena, n, sizeof *crowd->neighbours, ARRAY_ALIGN);
+    crowd->neighbour_count = ff_arena_push(arena, n, sizeof *crowd->neighbour_count, ARRAY_ALIGN);
+    return crowd->neighbour_count && ff_grid_init(&crowd->grid, crowd->def.max_agents, arena) &&
+           ff_walls_init(&crowd->walls, crowd->def.max_walls, arena);
+}
+
+static size_t memory_needed(const ff_crowd *crowd)
+{
+    size_t per_agent = 4 * sizeof(uint32_t) + sizeof(ff_traits) + sizeof(ff_mind) + sizeof(ff_body) +
+                       sizeof(ff_vec2) + sizeof(ff_seen) + sizeof *crowd->neighbours + crowd->gait_size;
+    return crowd->def.max_agents * per_agent + 11 * ARRAY_ALIGN + ff_grid_bytes(crowd->def.max_agents) +
+           ff_walls_bytes(crowd->def.max_walls);
+}
+
+ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd **out, ff_error *error)
+{
+    if (!out) return ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the crowd");
+    *out = NULL;
+    ff_status status = check_crowd_def(pack, def, error);
+    if (status != FF_OK) return status;
+    ff_crowd *crowd = ff_calloc(1, sizeof *crowd);
+    if (!crowd) return ff_fail(error, FF_ERR_NO_MEMORY, "a crowd");
+    crowd->pack = pack;
+    crowd->def = *def;
+    crowd->gait_size = (ff_gait_size() + 7) & ~(size_t)7;
+    ff_hull_make(pack->hull, pack->hull_count, &crowd->hull);
+    status = ff_blend_space_create(pack, &crowd->space, error);
+    if (status == FF_OK && !def->tasks) status = ff_tasks_create(def->threads, &crowd->own_tasks, error);
+    if (status == FF_OK) status = ff_arena_create(&crowd->arena, memory_needed(crowd), error);
+    if (status == FF_OK && !take_memory(crowd))
+        status = ff_fail(error, FF_ERR_NO_MEMORY, "a crowd of %u agents", def->max_agents);
+    if (status != FF_OK) {
+        ff_crowd_destroy(crowd);
+        return status;
+    }
+    *out = crowd;
+    return FF_OK;
+}
+
+void ff_crowd_destroy(ff_crowd *crowd)
+{
+    if (!crowd) return;
+    ff_arena_destroy(&crowd->arena);
+    ff_tasks_destroy(crowd->own_tasks);
+    ff_blend_space_destroy(crowd->space);
+    free(crowd);
+}
+
+/* ------------------------------------------------------------------------------------------------- agents */
+
+static bool is_place(ff_vec2 p)
+{
+    return fabs(p.a) <= PLANE_MAX && fabs(p.b) <= PLANE_MAX; /* false for nan */
+}
+
+static ff_status check_place(ff_vec2 p, const char *what, ff_error *error)
+{
+    if (is_place(p)) return FF_OK;
+    bool finite = isfinite(p.a) && isfinite(p.b);
+    return ff_fail(error, finite ? FF_ERR_RANGE : FF_ERR_NOT_FINITE, "%s is (%g, %g) m; expected within %g m",
+                   what, p.a, p.b, PLANE_MAX);
+}
+
+static ff_status check_between(double value, double low, double high, const char *what, ff_error *error)
+{
+    if (value >= low && value <= high) return FF_OK;
+    return ff_fail(error, isfinite(value) ? FF_ERR_RANGE : FF_ERR_NOT_FINITE, "%s is %g; expected %g to %g",
+                   what, value, low, high);
+}
+
+static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
+{
+    if (!def || def->cookie != AGENT_COOKIE)
+        return ff_fail(error, FF_ERR_ARGUMENT,
+                       "the agent's definition was not made by ff_agent_def_default()");
+    ff_status status = check_place(def->position, "position", error);
+    if (status == FF_OK) status = check_place(def->goal, "goal", error);
+    if (status == FF_OK) status = check_between(def->heading, -1e3, 1e3, "heading", error);
+    if (status == FF_OK)
+        status = check_between(def->goal_tolerance, TOLERANCE_MIN, 1e3, "goal_tolerance", error);
+    if (status == FF_OK) status = check_between(def->preferred_speed, 0.1, 4.0, "preferred_speed", error);
+    if (status == FF_OK) status = check_between(def->radius, 0.05, 1.5, "radius", error);
+    return status;
+}
+
+/* Free slots are taken last in, first out, then new ones. */
+static uint32_t take_slot(ff_crowd *crowd)
+{
+    if (crowd->free_count > 0) return crowd->free_slots[--crowd->free_count];
+    return crowd->slot_count++;
+}
+
+ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent *out, ff_error *error)
+{
+    if (!crowd || !out) return ff_fail(error, FF_ERR_ARGUMENT, "no crowd to add an agent to");
+    ff_status status = check_agent_def(def, error);
+    if (status != FF_OK) return status;
+    if (crowd->agent_count == crowd->def.max_agents)
+        return ff_fail(error, FF_ERR_RANGE, "the crowd is full: %u agents; raise max_agents",
+                       crowd->agent_count);
+    uint32_t slot = take_slot(crowd);
+    uint32_t generation = ++crowd->generation[slot];
+    crowd->alive[slot] = 1;
+    ++crowd->agent_count;
+
+    ff_random random = {crowd->def.seed, slot, (uint64_t)generation << 8};
+    double heading = ff_wrap(def->heading);
+    crowd->traits[slot] = (ff_traits){def->goal, def->goal_tolerance, def->preferred_speed, def->radius};
+    crowd->minds[slot] = ff_mind_new(heading);
+    crowd->bodies[slot] =
+        (ff_body){.position = def->position, .heading = heading, .phase = ff_random_unit(&random)};
+    crowd->velocity[slot] = ff_v2(0.0, 0.0);
+    ff_gait_init(crowd->space, ff_crowd_gait(crowd, slot), def->position, heading, ff_random_next(&random));
+    *out = (ff_agent){slot, generation};
+    return FF_OK;
+}
+
+static ff_status check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *error)
+{
+    if (crowd && agent.slot < crowd->slot_count && crowd->alive[agent.slot] &&
+        crowd->generation[agent.slot] == agent.generation)
+        return FF_OK;
+    return ff_fail(error, FF_ERR_ARGUMENT, "agent {%u, %u} does not live in this crowd", agent.slot,
+                   agent.generation);
+}
+
+ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error)
+{
+    ff_status status = check_agent(crowd, agent, error);
+    if (status != FF_OK) return status;
+    crowd->alive[agent.slot] = 0;
+    --crowd->agent_count;
+    crowd->free_slots[crowd->free_count++] = agent.slot;
+    return FF_OK;
+}
+
+ff_status ff_crowd_set_goal(ff_crowd *crowd, ff_agent agent, ff_vec2 goal, ff_error *error)
+{
+    ff_status status = check_agent(crowd, agent, error);
+    if (status == FF_OK) status = check_place(goal, "goal", error);
+    if (status != FF_OK) return status;
+    crowd->traits[agent.slot].goal = goal;
+    ff_mind_forget_goal(&crowd->minds[agent.slot]);
+    return FF_OK;
+}
+
+ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *error)
+{
+    if (!crowd) return ff_fail(error, FF_ERR_ARGUMENT, "no crowd to add a wall to");
+    ff_status status = check_place(p, "the wall's start", error);
+    if (status == FF_OK) status = check_place(q, "the wall's end", error);
+    if (status != FF_OK) return status;
+    if (crowd->steps > 0)
+        return ff_fail(error, FF_ERR_ARGUMENT, "walls are fixed once the first step was taken");
+    if (crowd->walls.count == crowd->def.max_walls)
+        return ff_fail(error, FF_ERR_RANGE, "there are %u walls already; raise max_walls",
+                       crowd->walls.count);
+    if (ff_length2(ff_sub2(q, p)) < 1e-6)
+        return ff_fail(error, FF_ERR_ARGUMENT, "the wall from (%g, %g) has no length", p.a, p.b);
+    ff_walls_add(&crowd->walls, p, q);
+    return FF_OK;
+}
+
+/* ---------------------------------------------------------------------------------------------- questions */
+
+uint32_t ff_crowd_agent_count(const ff_crowd *crowd)
+{
+    return crowd->agent_count;
+}
+
+uint64_t ff_crowd_step_count(const ff_crowd *crowd)
+{
+    return crowd->steps;
+}
+
+ff_crowd_timings ff_crowd_time_spent(const ff_crowd *crowd)
+{
+    return crowd->timings;
+}
+
+uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity)
+{
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < crowd->slot_count && count < capacity; ++slot)
+        if (crowd->alive[slot]) out[count++] = (ff_agent){slot, crowd->generation[slot]};
+    return crowd->agent_count;
+}
+
+ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_state *out, ff_error *error)
+{
+    ff_status status = check_agent(crowd, agent, error);
+    if (status != FF_OK) return status;
+    const ff_body *body = &crowd->bodies[agent.slot];
+    const ff_mind *mind = &crowd->minds[agent.slot];
+    const ff_traits *traits = &crowd->traits[agent.slot];
+    const ff_gait *gait = ff_crowd_gait(crowd, agent.slot);
+    bool near = ff_length2(ff_sub2(traits->goal, body->position)) <= traits->goal_tolerance;
+    *out =
+        (ff_agent_state){.position = body->position,
+                         .velocity = crowd->velocity[agent.slot],
+                         .heading = body->heading,
+                         .turn_rate = body->rates.turn,
+                         .command = mind->command,
+                         .goal = traits->goal,
+                         .radius = traits->radius,
+                         .reached = mind->standing && near,
+                         .planted = {(uint8_t)ff_gait_planted(gait, 0), (uint8_t)ff_gait_planted(gait, 1)}};
+    return FF_OK;
+}
+
+ff_status ff_crowd_agent_pose(const ff_crowd *crowd, ff_agent agent, ff_vec3 *hips, ff_quat *rotations,
+                              ff_error *error)
+{
+    ff_status status = check_agent(crowd, agent, error);
+    if (status != FF_OK) return status;
+    if (!hips || !rotations) return ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the pose");
+    const ff_body *body = &crowd->bodies[agent.slot];
+    ff_gait_pose(crowd->space, ff_crowd_gait(crowd, agent.slot), body->position, body->heading, hips,
+                 rotations);
+    return FF_OK;
+}
+
+/* ------------------------------------------------------------------------------------------------- hash */
+
+static uint64_t fnv(uint64_t hash, const void *data, size_t size)
+{
+    const unsigned char *byte = data;
+    for (size_t i = 0; i < size; ++i)
+        hash = (hash ^ byte[i]) * 0x100000001b3u;
+    return hash;
+}
+
+uint64_t ff_crowd_state_hash(const ff_crowd *crowd)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    hash = fnv(hash, &crowd->steps, sizeof crowd->steps);
+    hash = fnv(hash, crowd->free_slots, crowd->free_count * sizeof *crowd->free_slots);
+    for (uint32_t slot = 0; slot < crowd->slot_count; ++slot) {
+        hash = fnv(hash, &crowd->generation[slot], sizeof crowd->generation[slot]);
+        if (!crowd->alive[slot]) continue;
+        hash = fnv(hash, &crowd->traits[slot], sizeof crowd->traits[slot]);
+        hash = fnv(hash, &crowd->minds[slot], sizeof crowd->minds[slot]);
+        hash = fnv(hash, &crowd->bodies[slot], sizeof crowd->bodies[slot]);
+        hash = fnv(hash, &crowd->velocity[slot], sizeof crowd->velocity[slot]);
+        hash = fnv(hash, ff_crowd_gait(crowd, slot), ff_gait_size());
+    }
+    return hash;
+}

@@ -1,0 +1,113 @@
+/* One step of a crowd, in phases; each is a loop over agents that reads the last step's state and writes its own
+ * agent's records only (algorithms E). */
+#define _POSIX_C_SOURCE 199309L
+#include "runtime/core/crowd_state.h"
+
+#include <time.h>
+
+#define CHUNK 16 /* agents per task */
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* ----------------------------------------------------------------------------------------------- parallel */
+
+typedef struct agent_loop {
+    ff_crowd *crowd;
+    void (*agent)(ff_crowd *crowd, uint32_t index); /* index into grid.seen */
+} agent_loop;
+
+static void run_chunk(void *context, uint32_t chunk)
+{
+    const agent_loop *loop = context;
+    uint32_t end = (chunk + 1) * CHUNK, count = loop->crowd->grid.count;
+    if (end > count) end = count;
+    for (uint32_t i = chunk * CHUNK; i < end; ++i)
+        loop->agent(loop->crowd, i);
+}
+
+static void run_phase(ff_crowd *crowd, void (*agent)(ff_crowd *crowd, uint32_t index))
+{
+    agent_loop loop = {crowd, agent};
+    uint32_t chunks = (crowd->grid.count + CHUNK - 1) / CHUNK;
+    if (crowd->def.tasks) {
+        crowd->def.tasks(crowd->def.task_pool, chunks, run_chunk, &loop);
+    } else {
+        ff_tasks_for(crowd->own_tasks, chunks, 1, run_chunk, &loop);
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------- phases */
+
+static void snapshot(ff_crowd *crowd)
+{
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < crowd->slot_count; ++slot) {
+        if (!crowd->alive[slot]) continue;
+        const ff_body *body = &crowd->bodies[slot];
+        const ff_mind *mind = &crowd->minds[slot];
+        ff_vec2 velocity = ff_body_velocity(body);
+        crowd->unsorted[count++] = (ff_seen){body->position,
+                                             velocity,
+                                             ff_scale2(ff_add2(mind->command, velocity), 0.5),
+                                             crowd->traits[slot].radius,
+                                             slot,
+                                             mind->standing};
+    }
+    ff_grid_fill(&crowd->grid, crowd->unsorted, count);
+}
+
+static void find_neighbours(ff_crowd *crowd, uint32_t index)
+{
+    crowd->neighbour_count[index] =
+        ff_grid_neighbours(&crowd->grid, index, FF_PADDING, crowd->neighbours[index]);
+}
+
+static void navigate(ff_crowd *crowd, uint32_t index)
+{
+    uint32_t slot = crowd->grid.seen[index].slot;
+    ff_nav_world world = {&crowd->grid, &crowd->walls, &crowd->hull, crowd->def.step, crowd->def.keep_right};
+    ff_nav_step(&world, index, crowd->neighbours[index], crowd->neighbour_count[index], &crowd->traits[slot],
+                crowd->bodies[slot].heading, &crowd->minds[slot]);
+}
+
+static ff_rates clamp_to_examples(const void *space, ff_rates target)
+{
+    return ff_blend_clamp(space, target);
+}
+
+static void move(ff_crowd *crowd, uint32_t index)
+{
+    uint32_t slot = crowd->grid.seen[index].slot;
+    ff_body *body = &crowd->bodies[slot];
+    const ff_mind *mind = &crowd->minds[slot];
+    const ff_wall *walls[FF_NEAR_WALLS_MAX];
+    double radius = crowd->traits[slot].radius, dt = crowd->def.step;
+    ff_vec2 before = body->position;
+    ff_body_limits limits = {clamp_to_examples, crowd->space, walls, 0, radius};
+    limits.wall_count = ff_walls_near(&crowd->walls, before, radius + 1.0, walls);
+    ff_rates mean = ff_body_step(body, mind->command, mind->facing, dt, &limits);
+    crowd->velocity[slot] = ff_scale2(ff_sub2(body->position, before), 1.0 / dt);
+    ff_gait_step(crowd->space, ff_crowd_gait(crowd, slot), body->position, body->heading, mean, dt);
+}
+
+void ff_crowd_step(ff_crowd *crowd)
+{
+    double start = now();
+    snapshot(crowd);
+    run_phase(crowd, find_neighbours);
+    double found = now();
+    run_phase(crowd, navigate);
+    double decided = now();
+    run_phase(crowd, move);
+    double moved = now();
+    ++crowd->steps;
+    crowd->timings.neighbours += found - start;
+    crowd->timings.navigation += decided - found;
+    crowd->timings.synthesis += moved - decided;
+    crowd->timings.total += moved - start;
+}

@@ -1,0 +1,51 @@
+/* nav.h - one agent's decision: which velocity to ask of the body, and where to face (motion-constrained navigation,
+ * FbCrowd section 4, in the formulation of the navigation study, section 4). */
+#ifndef FF_NAV_H
+#define FF_NAV_H
+
+#include "runtime/core/nav_grid.h"
+#include "runtime/core/nav_hull.h"
+#include "runtime/core/nav_walls.h"
+
+#define FF_PADDING 0.02 /* m per disc, in forces and constraints */
+
+/* What does not change from step to step. */
+typedef struct ff_traits {
+    ff_vec2 goal;           /* m */
+    double goal_tolerance;  /* m */
+    double preferred_speed; /* m/s */
+    double radius;          /* m */
+} ff_traits;
+
+/* What navigation remembers of one agent. Plain, without padding: it is hashed as bytes. */
+typedef struct ff_mind {
+    ff_vec2 command;    /* m/s, what was asked for last */
+    double facing;      /* rad, where the body shall face */
+    double bias;        /* 0..1, how far the side preference has been eased in */
+    double sharp_side;  /* turn in progress: +1 left, -1 right, 0 none */
+    double best;        /* m, least distance to the goal so far */
+    double stalled;     /* s since best improved; standing short of the goal: s since settling */
+    double detour;      /* rad by which the way is turned now */
+    double detour_left; /* s */
+    uint32_t detours;   /* how many were tried for this goal */
+    uint32_t standing;  /* 1: stands, at the goal or as near to it as it can */
+} ff_mind;
+
+/* Shared by all agents during a step; read only. */
+typedef struct ff_nav_world {
+    const ff_grid *grid;
+    const ff_walls *walls;
+    const ff_hull *hull;
+    double step;       /* s */
+    double keep_right; /* rad, by which people turn aside for those they meet; negative = to the left */
+} ff_nav_world;
+
+ff_mind ff_mind_new(double heading);
+/* The goal has changed. */
+void ff_mind_forget_goal(ff_mind *mind);
+
+/* Decide for grid->seen[self] with these neighbours (from ff_grid_neighbours): updates mind. */
+void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours, uint32_t count,
+                 const ff_traits *traits, double heading, ff_mind *mind);
+
+#endif

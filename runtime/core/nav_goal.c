@@ -1,0 +1,130 @@
+#include "runtime/core/nav_goal.h"
+
+#include "runtime/core/nav_time.h"
+
+#define SLOW_DOWN 0.8 /* m before the goal */
+#define CREEP 0.12    /* least part of the preferred speed: above the idle threshold of the body */
+#define LEAVE 0.3     /* m beyond the tolerance until one who was pushed away walks back */
+#define PROGRESS 0.25 /* m nearer to the goal: the least that counts */
+#define PATIENCE 6.0  /* s without progress */
+#define TAKEN 1.0  /* m beyond the tolerance: a goal this near, and held by others, is as good as reached */
+#define SETTLE 5.0 /* s until one who settled tries again */
+#define DETOUR_TIME 2.0  /* s */
+#define DETOUR_FIRST 0.8 /* rad */
+#define DETOUR_MORE 0.4  /* rad more with every second try */
+#define DETOUR_MAX 2.0   /* rad */
+
+#define MEET_TIME 5.0   /* s */
+#define MEET_WIDTH 0.6  /* m, by which a pass is called a meeting although nobody would touch */
+#define EASE 0.5        /* s */
+#define FADE_FROM 0.8   /* m from the goal: no side preference inside */
+#define FADE_LENGTH 2.0 /* m */
+
+static ff_vec2 turned(ff_vec2 v, double angle)
+{
+    return ff_from_frame2(ff_fwd2(angle), v);
+}
+
+/* Whether somebody stands where we want to stand. */
+static bool goal_taken(const ff_grid *grid, const ff_neighbour *neighbours, uint32_t count,
+                       const ff_traits *traits)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        const ff_seen *other = &grid->seen[neighbours[i].index];
+        double reach = traits->goal_tolerance + traits->radius + other->radius;
+        ff_vec2 gap = ff_sub2(other->position, traits->goal);
+        if (other->standing && ff_dot2(gap, gap) < reach * reach) return true;
+    }
+    return false;
+}
+
+static void give_way_to_fate(bool taken, double distance, const ff_nav_world *world, const ff_traits *traits,
+                             ff_mind *mind)
+{
+    mind->stalled = 0.0;
+    mind->best = distance;
+    if (taken && distance < traits->goal_tolerance + TAKEN) {
+        mind->standing = 1;
+        return;
+    }
+    /* First round the preferred side, then the other, then wider. */
+    double size = ff_min(DETOUR_FIRST + DETOUR_MORE * (double)(mind->detours / 2), DETOUR_MAX);
+    double side = (mind->detours % 2 == 0) == (world->keep_right >= 0.0) ? -1.0 : 1.0;
+    mind->detour = side * size;
+    mind->detour_left = DETOUR_TIME;
+    ++mind->detours;
+}
+
+static void stand_or_go(double distance, double step, const ff_traits *traits, ff_mind *mind)
+{
+    bool inside = distance <= traits->goal_tolerance;
+    if (!mind->standing) {
+        if (inside) mind->standing = 1, mind->stalled = 0.0;
+        return;
+    }
+    if (inside) {
+        mind->stalled = 0.0;
+        return;
+    }
+    mind->stalled += step;
+    if (distance > traits->goal_tolerance + LEAVE + TAKEN || mind->stalled > SETTLE) {
+        mind->standing = 0;
+        mind->stalled = 0.0;
+        mind->best = distance;
+    }
+}
+
+ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
+                         uint32_t count, const ff_traits *traits, ff_mind *mind)
+{
+    ff_vec2 to_goal = ff_sub2(traits->goal, world->grid->seen[self].position);
+    double distance = ff_length2(to_goal);
+    stand_or_go(distance, world->step, traits, mind);
+    if (mind->standing) return ff_v2(0.0, 0.0);
+
+    if (mind->detour_left > 0.0) {
+        mind->detour_left -= world->step;
+        mind->best = distance;
+        mind->stalled = 0.0;
+    } else if (distance < mind->best - PROGRESS) {
+        mind->best = distance;
+        mind->stalled = 0.0;
+    } else {
+        mind->stalled += world->step;
+        if (mind->stalled > PATIENCE)
+            give_way_to_fate(goal_taken(world->grid, neighbours, count, traits), distance, world, traits,
+                             mind);
+    }
+    double speed = traits->preferred_speed * ff_clamp(distance / SLOW_DOWN, CREEP, 1.0);
+    ff_vec2 preferred = ff_scale2(ff_unit2(to_goal), speed);
+    return mind->detour_left > 0.0 ? turned(preferred, mind->detour) : preferred;
+}
+
+/* Whether anybody near would be met within MEET_TIME, or passed closely, at the preferred velocity. */
+static bool meets_somebody(const ff_grid *grid, uint32_t self, ff_vec2 preferred)
+{
+    const ff_seen *me = &grid->seen[self];
+    ff_run runs[FF_GRID_RUNS_MAX];
+    uint32_t run_count = ff_grid_runs(grid, me->position, runs);
+    for (uint32_t r = 0; r < run_count; ++r) {
+        for (uint32_t i = runs[r].first; i < runs[r].end; ++i) {
+            const ff_seen *other = &grid->seen[i];
+            ff_vec2 x = ff_sub2(me->position, other->position);
+            if (!(ff_dot2(x, x) <= FF_NEIGHBOUR_REACH * FF_NEIGHBOUR_REACH) || i == self) continue;
+            double reach = me->radius + other->radius + MEET_WIDTH;
+            if (ff_time_to_disc(x, ff_sub2(preferred, other->velocity), reach) < MEET_TIME) return true;
+        }
+    }
+    return false;
+}
+
+ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_traits *traits,
+                          ff_vec2 preferred, ff_mind *mind)
+{
+    bool meets = !mind->standing && meets_somebody(world->grid, self, preferred);
+    mind->bias = ff_clamp(mind->bias + (meets ? 1.0 : -1.0) * world->step / EASE, 0.0, 1.0);
+    if (mind->standing || mind->bias <= 0.0) return preferred;
+    double distance = ff_length2(ff_sub2(traits->goal, world->grid->seen[self].position));
+    double fade = ff_clamp((distance - FADE_FROM) / FADE_LENGTH, 0.0, 1.0);
+    return turned(preferred, -world->keep_right * mind->bias * fade);
+}

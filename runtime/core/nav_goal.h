@@ -1,0 +1,16 @@
+/* nav_goal.h - where an agent would like to go: towards its goal, and to a stand there. */
+#ifndef FF_NAV_GOAL_H
+#define FF_NAV_GOAL_H
+
+#include "runtime/core/nav.h"
+
+/* Preferred velocity before any regard for others; zero for one who stands. Watches progress: somebody who gets no
+ * nearer for a while settles, when the goal is taken by others who stand there, or else tries a way round. */
+ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
+                         uint32_t count, const ff_traits *traits, ff_mind *mind);
+
+/* v_pref turned to the preferred side while somebody is met (navigation study 4, 1). */
+ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_traits *traits,
+                          ff_vec2 preferred, ff_mind *mind);
+
+#endif

@@ -1,0 +1,21 @@
+/* nav_orca.h - half-planes of collision-free velocities (ORCA, van den Berg et al. 2011; algorithms C.7). */
+#ifndef FF_NAV_ORCA_H
+#define FF_NAV_ORCA_H
+
+#include "runtime/core/nav_solve.h"
+#include "runtime/core/nav_time.h"
+
+/* Line for avoiding a moving disc. to_other = p_j - p_i, relative = v_i - v_j, own = v_i, reach = r_i + r_j,
+ * horizon in s, share = part of the avoidance that is ours; apart = unit direction to use when the geometry gives none
+ * (the two must be given opposite ones). A pair that overlaps is told to part within overlap_time. */
+ff_line ff_orca_disc(ff_vec2 to_other, ff_vec2 relative, ff_vec2 own, double reach, double horizon,
+                     double share, double overlap_time, ff_vec2 apart);
+
+/* Lines for not touching walls[count] within horizon seconds, put at the end of lines; returns the new count. Walls
+ * take no part in avoiding: full responsibility. All lines admit standing still. The velocity obstacle of each
+ * wall is found by itself; where it lies inside that of a wall that shares an end (a chain), its boundary is not a
+ * boundary of the whole and gives no line. */
+uint32_t ff_orca_walls(const ff_wall *const *walls, uint32_t count, ff_vec2 p, ff_vec2 own, double radius,
+                       double horizon, ff_line *lines, uint32_t line_count);
+
+#endif
