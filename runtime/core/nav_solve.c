@@ -3,10 +3,10 @@
 /* Two lines whose directions' determinant is smaller than this are parallel. */
 #define PARALLEL 1e-5
 
-typedef enum goal_kind {
+typedef enum aim_kind {
     NEAREST,
     FARTHEST
-} goal_kind; /* nearest to a velocity, or farthest along a unit vector */
+} aim_kind; /* nearest to a velocity, or farthest along a unit vector */
 
 typedef struct lp_aim {
     aim_kind kind;
