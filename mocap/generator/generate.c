@@ -1,0 +1,163 @@
+#include "mocap/generator/feet.h"
+#include "mocap/generator/gait_data.h"
+#include "mocap/generator/generator.h"
+#include "mocap/generator/pose.h"
+#include "mocap/generator/recipes.h"
+#include "mocap/generator/skeleton.h"
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FPS 120.0
+#define TINY 1e-7 /* frames: contacts fall on whole frames up to rounding */
+
+int ff_generator_count(void)
+{
+    return ff_recipe_count;
+}
+
+ff_generator_info ff_generator_describe(int index)
+{
+    return ff_recipes[index].info;
+}
+
+int ff_generator_find(const char *name)
+{
+    for (int i = 0; i < ff_recipe_count; ++i)
+        if (strcmp(ff_recipes[i].info.name, name) == 0) return i;
+    return -1;
+}
+
+int ff_generator_people(void)
+{
+    return FF_PEOPLE + 1;
+}
+
+void ff_generated_free(ff_generated *generated)
+{
+    ff_clip_free(&generated->clip);
+    free(generated->plants);
+    memset(generated, 0, sizeof *generated);
+}
+
+/* ------------------------------------------------------------------------------------------------- plants */
+
+static int first_frame_from(double t)
+{
+    return (int)ceil(ff_clamp(t, -1e3, 1e6) * FPS - TINY);
+}
+static int last_frame_until(double t)
+{
+    return (int)floor(ff_clamp(t, -1e3, 1e6) * FPS + TINY);
+}
+
+/* The part of a footing that lies in the clip; false when none does. */
+static bool true_plant(const ff_footing *footing, int foot, int frame_count, ff_true_plant *out)
+{
+    int last = frame_count - 1;
+    *out = (ff_true_plant){.foot = foot,
+                           .start = first_frame_from(footing->contact),
+                           .flat_start = first_frame_from(footing->flat),
+                           .flat_end = last_frame_until(footing->heel_off),
+                           .roll_end = last_frame_until(footing->release),
+                           .end = last_frame_until(footing->toe_off),
+                           .ball = ff_ground(footing->ball, 0.0),
+                           .yaw = footing->yaw};
+    out->ball.y = FF_BODY_BALL_HEIGHT;
+    if (out->end < 0 || out->start > last) return false;
+    out->cut_start = out->start < 0;
+    out->cut_end = out->end > last;
+    if (out->start < 0) out->start = 0;
+    if (out->end > last) out->end = last;
+    if (out->roll_end > last) out->roll_end = last;
+    if (out->flat_end < 0 || out->flat_start > last) {
+        out->flat_start = out->flat_end = -1;
+    } else {
+        if (out->flat_start < 0) out->flat_start = 0;
+        if (out->flat_end > last) out->flat_end = last;
+    }
+    return true;
+}
+
+static int by_start(const void *a, const void *b)
+{
+    const ff_true_plant *p = a, *q = b;
+    return p->start != q->start ? (p->start < q->start ? -1 : 1) : p->foot - q->foot;
+}
+
+static bool collect_plants(const ff_plan *plan, int frame_count, ff_generated *out)
+{
+    out->plants = ff_calloc((size_t)plan->contact_count + 1, sizeof *out->plants);
+    if (!out->plants) return false;
+    for (int foot = 0; foot < 2; ++foot)
+        for (int i = 0; i < plan->footing_count[foot]; ++i)
+            if (true_plant(&plan->footings[foot][i], foot, frame_count, &out->plants[out->plant_count]))
+                ++out->plant_count;
+    qsort(out->plants, (size_t)out->plant_count, sizeof *out->plants, by_start);
+    return true;
+}
+
+/* -------------------------------------------------------------------------------------------------- clips */
+
+/* Play everything from the last frame to the first. */
+static void reverse(ff_generated *g)
+{
+    int n = g->clip.frame_count, joints = g->clip.joint_count;
+    for (int a = 0, b = n - 1; a < b; ++a, --b) {
+        ff_vec3 p = g->clip.positions[a];
+        g->clip.positions[a] = g->clip.positions[b];
+        g->clip.positions[b] = p;
+        ff_quat *qa = g->clip.rotations + (size_t)a * (size_t)joints;
+        ff_quat *qb = g->clip.rotations + (size_t)b * (size_t)joints;
+        for (int j = 0; j < joints; ++j) {
+            ff_quat q = qa[j];
+            qa[j] = qb[j];
+            qb[j] = q;
+        }
+    }
+    for (int i = 0; i < g->plant_count; ++i) {
+        ff_true_plant was = g->plants[i], *p = &g->plants[i];
+        p->start = n - 1 - was.end;
+        p->end = n - 1 - was.start;
+        p->flat_start = was.flat_start < 0 ? -1 : n - 1 - was.flat_end;
+        p->flat_end = was.flat_start < 0 ? -1 : n - 1 - was.flat_start;
+        p->roll_end = p->flat_end;
+        p->cut_start = was.cut_end;
+        p->cut_end = was.cut_start;
+    }
+    qsort(g->plants, (size_t)g->plant_count, sizeof *g->plants, by_start);
+}
+
+ff_status ff_generator_make(int index, const ff_generator_options *options, ff_generated *out,
+                            ff_error *error)
+{
+    static const ff_generator_options plain = {0};
+    memset(out, 0, sizeof *out);
+    if (!options) options = &plain;
+    if (index < 0 || index >= ff_recipe_count)
+        return ff_fail(error, FF_ERR_ARGUMENT, "built-in clip %d: there are %d", index, ff_recipe_count);
+    if (options->person < 0 || options->person >= ff_generator_people())
+        return ff_fail(error, FF_ERR_ARGUMENT, "person %d: choose 0 to %d", options->person,
+                       ff_generator_people() - 1);
+    const ff_recipe *recipe = &ff_recipes[index];
+    ff_plan *plan = ff_calloc(1, sizeof *plan);
+    if (!plan) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the plan of %s", recipe->info.name);
+    plan->style = recipe->style;
+    plan->style.person = options->person;
+    plan->style.seed = options->seed;
+    int frames = recipe->plan(recipe, plan);
+    ff_status status = ff_body_clip(recipe->info.name, frames, &out->clip, error);
+    if (status == FF_OK) {
+        bool done = ff_plan_finish(plan);
+        if (done) ff_feet_clear(plan);
+        done = done && ff_pose_clip(plan, &out->clip) && collect_plants(plan, frames, out);
+        if (!done) status = ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the clip %s", recipe->info.name);
+    }
+    ff_plan_free(plan);
+    free(plan);
+    if (status == FF_OK && recipe->reversed) reverse(out);
+    if (status != FF_OK) ff_generated_free(out);
+    return status;
+}
