@@ -61,5 +61,4 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
                             ff_error *error);
 void ff_generated_free(ff_generated *generated);
 
-
 #endif

@@ -202,18 +202,19 @@ static void add_footing(ff_plan *plan, int index)
     footing->speed = sqrt(near_root.forward * near_root.forward + near_root.left * near_root.left);
     set_pitch(plan, footing, &near_root);
     set_times(plan, footing, c->t, step_time);
-    if (plan->stand_first && index < 2) {
+    bool from_ever = plan->stand_first && index < 2, for_ever = plan->stand_last && index >= n - 2;
+    if (from_ever) {
         place_stand(plan, footing, c->foot, plan->begin);
         ff_root leaving = ff_plan_root(plan, footing->toe_off);
         set_pitch(plan, footing, &leaving);
         set_times(plan, footing, c->t, step_time);
         footing->contact = footing->flat = plan->begin - LONG_AGO;
-    } else if (plan->stand_last && index >= n - 2) {
+    } else if (for_ever) {
         place_stand(plan, footing, c->foot, plan->end);
-        footing->heel_off = footing->release = footing->toe_off = plan->end + LONG_AGO;
     } else {
         place(plan, footing, c->foot, 0.5 * (footing->contact + footing->toe_off), step_time);
     }
+    if (for_ever) footing->heel_off = footing->release = footing->toe_off = plan->end + LONG_AGO;
     /* with the heel up the foot turns about the ball, towards where the body has turned meanwhile */
     ff_root leaving = ff_plan_root(plan, footing->release);
     double side = c->foot == 0 ? 1.0 : -1.0;
