@@ -115,6 +115,7 @@ $(B)/footfall-pack: $(call obj,$(pack_src)) $(room_libs)
 $(B)/footfall-crowd: $(call obj,$(crowd_src)) $(room_libs)
 	$(link) $(libs)
 # An example shows what a user of the library needs, so it gets the library alone.
+$(call obj,$(example_src)): CFLAGS += -Iruntime
 $(B)/examples/%: $(B)/obj/runtime/examples/%.c.o $(libfootfall)
 	mkdir -p $(@D)
 	echo "link $@"
@@ -125,6 +126,7 @@ test_bin  := $(patsubst %.c,$(B)/%,$(test_src))
 bench_bin := $(patsubst %.c,$(B)/%,$(bench_src))
 fuzz_bin  := $(patsubst %.c,$(B)/%,$(fuzz_src))
 e2e       := $(filter-out %/lib.sh,$(wildcard tests/e2e/*.sh))
+house     := $(wildcard tests/house/*.sh)
 $(test_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
 	$(link) -lcmocka $(libs)
 $(bench_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
@@ -132,7 +134,7 @@ $(bench_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
 $(fuzz_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
 	$(link) $(libs) -fsanitize=fuzzer
 
-.PHONY: test unit e2e soak bench test-programs fuzz-programs bench-programs
+.PHONY: test unit e2e house soak bench test-programs fuzz-programs bench-programs
 test-programs: all $(test_bin)
 fuzz-programs: $(fuzz_bin)
 bench-programs: $(bench_bin)
@@ -144,12 +146,14 @@ test: ## set up, then every test, plain and under ASan and UBSan, and a short fu
 	+$(MAKE) test-programs
 	+$(MAKE) config=sanitize B=$(B)/sanitize test-programs
 	$(build_fuzzers)
-	scripts/run-tests.sh $(addprefix $(B)/sanitize:,$(e2e)) $(run_fuzzers) $(addprefix $(B):,$(e2e)) \
+	scripts/run-tests.sh $(addprefix $(B)/sanitize:,$(e2e)) $(run_fuzzers) $(addprefix $(B):,$(house) $(e2e)) \
 	    $(patsubst %.c,$(B)/sanitize:$(B)/sanitize/%,$(test_src)) $(patsubst %,$(B):%,$(test_bin))
 unit: test-programs ## only the unit tests, of this config
 	scripts/run-tests.sh $(patsubst %,$(B):%,$(test_bin))
 e2e: test-programs ## only the end-to-end tests, of this config
-	scripts/run-tests.sh $(patsubst %,$(B):%,$(e2e))
+	scripts/run-tests.sh $(addprefix $(B):,$(e2e))
+house: test-programs ## only the rules of the house: includes, installed tree, commands of the READMEs
+	scripts/run-tests.sh $(addprefix $(B):,$(house))
 soak: ## fuzz long: 500,000 runs of every target (FUZZ_RUNS=N)
 	scripts/setup.sh
 	$(build_fuzzers)
@@ -197,7 +201,7 @@ lint: ## clang-format, clang-tidy and cppcheck over every source file
 	scripts/setup.sh lint
 	clang-format --dry-run -Werror $(own_files)
 	printf '%s\n' $(filter %.c,$(every_src)) | \
-	    xargs -P $$(nproc) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -I. 2>/dev/null' clang-tidy
+	    xargs -P $$(nproc) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -I. -Iruntime 2>/dev/null' clang-tidy
 	cppcheck --quiet --enable=warning,performance,portability --std=c11 --inline-suppr --error-exitcode=1 -j$$(nproc) \
 	    --suppressions-list=scripts/cppcheck.txt -I. $(filter %.c,$(every_src))
 clean: ## remove everything built
