@@ -110,7 +110,8 @@ static ff_status place_bidirectional(const ff_scene_def *def, ff_scene *scene, f
     double spacing = given(def->spacing, 0.9), jitter = given(def->jitter, 0.05);
     double room = width - 2.0 * (def->agent_radius + jitter);
     uint32_t columns = (uint32_t)ff_max(1.0, floor(room / spacing + 1e-9) + 1.0);
-    double depth = ((half + columns - 1) / columns) * spacing;
+    uint32_t rows = (half + columns - 1) / columns;
+    double depth = rows * spacing;
     double length = given(def->corridor_length, gap + 2.0 * depth + 4.0);
     block shape = {
         .columns = columns, .travel = gap + depth, .spacing = spacing, .jitter = jitter, .at_is_front = true};

@@ -1,3 +1,4 @@
+#define FF_JSON_C
 #include "runtime/tool/json.h"
 
 #include "runtime/core/base/fail.h"

@@ -32,6 +32,12 @@ ff_status ff_json_fail(const ff_json *json, const json_t *value, ff_error *error
 ff_status ff_json_fail_key(const ff_json *json, const json_t *object, const char *key, ff_error *error,
                            const char *format, ...) FF_PRINTF(5, 6);
 
+#if defined(__clang_analyzer__) && !defined(FF_JSON_C)
+/* As in fail.h: what clang-tidy cannot see from one file. */
+#define ff_json_fail(json, value, ...) (ff_json_fail(json, value, __VA_ARGS__), FF_ERR_PARSE)
+#define ff_json_fail_key(json, object, ...) (ff_json_fail_key(json, object, __VA_ARGS__), FF_ERR_PARSE)
+#endif
+
 /* Refuse keys of object that are not in allowed (NULL-terminated list), naming the nearest allowed one. */
 ff_status ff_json_only_keys(const ff_json *json, const json_t *object, const char *const *allowed,
                             ff_error *error);

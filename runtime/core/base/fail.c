@@ -1,3 +1,4 @@
+#define FF_FAIL_C
 #include "runtime/core/base/fail.h"
 
 #include <stdarg.h>
