@@ -2,6 +2,8 @@
 #ifndef FF_ROLES_H
 #define FF_ROLES_H
 
+#include <stdbool.h>
+
 /* A role names the joint where the bone STARTS: FF_ROLE_HIP_L is the hip joint (start of the thigh), KNEE the
  * start of the shank, ANKLE the start of the foot, BALL the start of the toes. Tips are end sites or leaf joints.
  * The order is the order of joints in a motion pack's skeleton (parents first). */
@@ -39,6 +41,8 @@ typedef enum ff_role {
 
 /* "hips", "left knee" ...; "none". */
 const char *ff_role_name(ff_role role);
+/* The role of a name that ff_role_name gives ("none" too); false for any other. */
+bool ff_role_from_name(const char *name, ff_role *out);
 /* The same role on the other side; middle roles map to themselves. */
 ff_role ff_role_mirror(ff_role role);
 /* Parent of a role in the pack's skeleton; FF_ROLE_NONE for the hips. Points have parents too. */

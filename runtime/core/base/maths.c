@@ -1,34 +1,14 @@
 #include "runtime/core/base/maths.h"
 
-/* Argument reduction by pi/2 in three parts (Cody and Waite), then minimax polynomials on [-pi/4, pi/4] with
- * the classic fdlibm coefficients: only + - * and floor, so every IEEE machine gives the same bits. */
-static double kernel_sin(double x)
-{
-    double z = x * x;
-    double r = 8.33333333332248946124e-03 +
-               z * (-1.98412698298579493134e-04 +
-                    z * (2.75573137070700676789e-06 +
-                         z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-    return x + x * z * (-1.66666666666666324348e-01 + z * r);
-}
+#include "runtime/core/base/trig_kernel.h"
 
-static double kernel_cos(double x)
-{
-    double z = x * x;
-    double r = z * (4.16666666666666019037e-02 +
-                    z * (-1.38888888888741095749e-03 +
-                         z * (2.48015872894767294178e-05 +
-                              z * (-2.75573143513906633035e-07 +
-                                   z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-    return 1.0 - (0.5 * z - z * r);
-}
-
+/* Argument reduction by pi/2 in three parts (Cody and Waite), then the kernels. */
 void ff_sincos(double x, double *sine, double *cosine)
 {
     double n = floor(x * (2.0 / FF_PI) + 0.5);
     double r = ((x - n * 1.57079632673412561417e+00) - n * 6.07710050630396597660e-11) -
                n * 2.02226624879595063154e-21;
-    double s = kernel_sin(r), c = kernel_cos(r);
+    double s = ff_kernel_sin(r), c = ff_kernel_cos(r);
     double quarter = n - 4.0 * floor(n * 0.25);
     if (quarter < 0.5) {
         *sine = s, *cosine = c;

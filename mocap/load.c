@@ -1,0 +1,124 @@
+/* A clip from a file: which reader, which skeleton, then ff_clip_finish. */
+#define _POSIX_C_SOURCE 200809L
+#include "mocap/load.h"
+
+#include "mocap/read.h"
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+ff_load_options ff_load_options_default(void)
+{
+    return (ff_load_options){.up = 'y'};
+}
+
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+    return dot && (!slash || dot > slash) ? dot : "";
+}
+
+/* path without its ending and what follows the last '_' of the file name (when at_underscore), with a new ending. Sets
+ * *out to NULL when memory is short; returns whether there is such a file. */
+static bool skeleton_beside(const char *path, bool at_underscore, const char *ending, char **out)
+{
+    size_t length = (size_t)(ending_of(path) - path);
+    const char *slash = strrchr(path, '/');
+    size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
+    if (at_underscore) {
+        while (length > folder && path[length] != '_')
+            --length;
+        if (length == folder) return false;
+    }
+    *out = malloc(length + strlen(ending) + 1);
+    if (!*out) return false;
+    memcpy(*out, path, length);
+    memcpy(*out + length, ending, strlen(ending) + 1);
+    if (access(*out, R_OK) == 0) return true;
+    free(*out);
+    *out = NULL;
+    return false;
+}
+
+static ff_status find_skeleton(const char *path, char **out, ff_error *error)
+{
+    *out = NULL;
+    if (skeleton_beside(path, false, ".asf", out) || skeleton_beside(path, true, ".asf", out) ||
+        skeleton_beside(path, false, ".ASF", out) || skeleton_beside(path, true, ".ASF", out))
+        return FF_OK;
+    ff_fail(error, FF_ERR_IO,
+            "no ASF skeleton beside it (the same name, or the part before '_', with .asf): name one "
+            "(\"skeleton\")");
+    ff_error_in_file(error, path);
+    return FF_ERR_IO;
+}
+
+static ff_status load_asf(const char *path, bool strict, ff_asf *out, ff_error *error)
+{
+    ff_file file;
+    ff_status status = ff_file_map(path, &file, error);
+    if (status != FF_OK) return status;
+    status = ff_asf_parse(file.data, file.size, path, strict, out, error);
+    ff_file_unmap(&file);
+    return status;
+}
+
+static ff_status read_amc(const ff_file *file, const char *path, const ff_load_options *options,
+                          double *unit_m, ff_clip *out, ff_error *error)
+{
+    char *found = NULL;
+    ff_status status = options->skeleton ? FF_OK : find_skeleton(path, &found, error);
+    ff_asf asf;
+    if (status == FF_OK) status = load_asf(found ? found : options->skeleton, options->strict, &asf, error);
+    free(found);
+    if (status != FF_OK) return status;
+    *unit_m = asf.length > 0.0 ? 0.0254 / asf.length : 0.0; /* algorithms A.2: inches over the length entry */
+    status = ff_amc_parse(&asf, file->data, file->size, path, options, out, error);
+    ff_asf_free(&asf);
+    return status;
+}
+
+static ff_status name_clip(ff_clip *clip, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *base = slash ? slash + 1 : path;
+    clip->source = strdup(path);
+    clip->name = strndup(base, (size_t)(ending_of(base) - base));
+    return clip->source && clip->name ? FF_OK : FF_ERR_NO_MEMORY;
+}
+
+ff_status ff_clip_load(const char *path, const ff_load_options *options, ff_clip *out, ff_error *error)
+{
+    memset(out, 0, sizeof *out);
+    const char *ending = ending_of(path);
+    bool amc = strcasecmp(ending, ".amc") == 0;
+    if (!amc && strcasecmp(ending, ".bvh") != 0) {
+        ff_fail(error, FF_ERR_UNSUPPORTED, "unknown kind of clip '%s', expected .amc or .bvh", ending);
+        ff_error_in_file(error, path);
+        return FF_ERR_UNSUPPORTED;
+    }
+    ff_file file;
+    ff_status status = ff_file_map(path, &file, error);
+    if (status != FF_OK) return status;
+    double stated_m = 0.0;
+    if (amc) {
+        status = read_amc(&file, path, options, &stated_m, out, error);
+    } else {
+        status = ff_bvh_parse(file.data, file.size, path, options, out, error);
+    }
+    ff_file_unmap(&file);
+    if (status != FF_OK) return status;
+    status = name_clip(out, path);
+    if (status != FF_OK) ff_fail(error, status, "no memory for the clip's name");
+    if (status == FF_OK) status = ff_clip_finish(out, options, stated_m, error);
+    if (status != FF_OK) {
+        ff_error_in_file(error, path);
+        ff_clip_free(out);
+    }
+    return status;
+}
