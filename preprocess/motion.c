@@ -237,6 +237,20 @@ ff_status ff_motion_from_clip(const ff_rig *rig, const ff_clip *clip, const ff_p
     return status;
 }
 
+void ff_motion_sample(const ff_motion *motion, double frame, ff_vec3 *root, ff_vec3 *hips, ff_quat *rotations)
+{
+    frame = ff_clamp(frame, 0.0, motion->frame_count - 1);
+    int low = (int)frame, high = low + 1 < motion->frame_count ? low + 1 : low;
+    double t = frame - low;
+    if (root) *root = ff_lerp3(motion->root[low], motion->root[high], t);
+    if (hips) *hips = ff_lerp3(motion->hips[low], motion->hips[high], t);
+    if (!rotations) return;
+    const ff_quat *from = motion->rotations + (size_t)low * FF_ROLE_JOINT_COUNT;
+    const ff_quat *to = motion->rotations + (size_t)high * FF_ROLE_JOINT_COUNT;
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
+        rotations[r] = ff_quat_nlerp(from[r], to[r], t);
+}
+
 ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error)
 {
     ff_status status = motion_alloc(out, motion->frame_count, motion->frame_time, error);

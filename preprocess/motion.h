@@ -47,6 +47,10 @@ void ff_motion_free(ff_motion *motion);
 void ff_motion_pose(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec3 *positions,
                     ff_quat *rotations);
 
+/* Root, hips and local rotations [FF_ROLE_JOINT_COUNT] between frames (any of them may be NULL); frame is clamped. */
+void ff_motion_sample(const ff_motion *motion, double frame, ff_vec3 *root, ff_vec3 *hips,
+                      ff_quat *rotations);
+
 /* The same motion with left and right exchanged (algorithms A.8). */
 ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error);
 
