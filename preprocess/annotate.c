@@ -1,0 +1,173 @@
+#include "preprocess/annotate.h"
+
+#include "preprocess/standing.h"
+
+#include <string.h>
+
+/* J/(kg s) and J s/(kg m2): Whittle's figures as the paper uses them (algorithms B.2). */
+static const double E_S = 2.23, E_W = 1.26;
+static const double SHORTEST_FLIGHT = 0.03, RUN_SPEED = 2.1; /* s, m/s: algorithms A.6 */
+static const double NO_DIRECTION = 0.02;                     /* m: a displacement below it has no angle */
+/* m: median forward step of the CMU walks (footstep study), for a pack of a single clip; ff_actions_split_walks sets
+ * the median of all clips. */
+static const double MEDIAN_STEP = 0.71;
+
+int ff_plant_full(const ff_plants *plants, int plant)
+{
+    const ff_plant *p = &plants->items[plant];
+    if (p->flat_start >= 0) return p->flat_start;
+    for (int i = p->start; i <= p->end; ++i) {
+        const ff_foot_track *t = &plants->tracks[2 * i + p->foot];
+        if (t->ball_speed < 0.6 && t->ball_height < 0.02) return i;
+    }
+    return p->start + (p->end - p->start) / 3;
+}
+
+static double ground_speed(const ff_vec3 *root, int first, int last, int i, double frame_time)
+{
+    int before = i > first ? i - 1 : first, after = i < last ? i + 1 : last;
+    if (after == before) return 0.0;
+    ff_vec3 moved = ff_sub3(root[after], root[before]);
+    return ff_length2(ff_v2(moved.x, moved.y)) / ((after - before) * frame_time);
+}
+
+double ff_walk_energy(const ff_vec3 *root, int first, int last, double frame_time)
+{
+    double sum = 0.0;
+    for (int i = first; i <= last; ++i) {
+        double v = ground_speed(root, first, last, i, frame_time);
+        double weight = i == first || i == last ? 0.5 : 1.0;
+        sum += weight * (E_S + E_W * v * v) * frame_time;
+    }
+    return last > first ? sum : 0.0;
+}
+
+bool ff_find_flight(const ff_plants *plants, int first, int last, int *from, int *to)
+{
+    int begin = -1, longest = 0;
+    for (int i = first; i <= last + 1; ++i) {
+        bool air = i <= last && ff_plant_at(plants, FF_LEFT, i) < 0 && ff_plant_at(plants, FF_RIGHT, i) < 0;
+        if (air && begin < 0) begin = i;
+        if (!air && begin >= 0) {
+            if (i - begin > longest) {
+                longest = i - begin;
+                *from = begin;
+                *to = i - 1;
+            }
+            begin = -1;
+        }
+    }
+    return longest > 0;
+}
+
+/* Where the feet are in one frame. */
+typedef struct feet {
+    ff_vec2 ball[2];
+    double yaw[2]; /* rad, heel to ball */
+} feet;
+
+static feet feet_at(const ff_rig *rig, const ff_motion *motion, int frame)
+{
+    ff_vec3 at[FF_BODY_COUNT];
+    feet f;
+    ff_motion_pose(rig, motion, frame, at, NULL);
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_vec2 ball = ff_plane(at[foot == FF_LEFT ? FF_ROLE_BALL_L : FF_ROLE_BALL_R]);
+        ff_vec2 along = ff_sub2(ball, ff_plane(at[foot == FF_LEFT ? FF_BODY_HEEL_L : FF_BODY_HEEL_R]));
+        f.ball[foot] = ball;
+        f.yaw[foot] = ff_atan2(along.b, along.a);
+    }
+    return f;
+}
+
+static void store2(float out[2], ff_vec2 v)
+{
+    out[0] = (float)v.a;
+    out[1] = (float)v.b;
+}
+
+static void store3(float out[3], ff_vec2 v, double angle)
+{
+    store2(out, v);
+    out[2] = (float)angle;
+}
+
+static uint32_t find_mode(const ff_pack_action *r, const ff_step_span *span)
+{
+    if (span->mode >= 0) return (uint32_t)span->mode;
+    if (r->flight[1] - r->flight[0] >= (float)SHORTEST_FLIGHT || r->speed > (float)RUN_SPEED)
+        return FF_MODE_RUN;
+    return hypot((double)r->step_length, (double)r->step_width) < MEDIAN_STEP ? FF_MODE_WALK_SHORT
+                                                                              : FF_MODE_WALK_LONG;
+}
+
+/* Times, feet and the flight. */
+static void describe_time(const ff_motion *motion, const ff_plants *plants, const ff_step_span *span,
+                          ff_pack_action *r)
+{
+    double dt = motion->frame_time;
+    int from = 0, to = 0;
+    r->support = (uint32_t)plants->items[span->support].foot;
+    r->swing = 1u - r->support;
+    r->support_plant = (uint32_t)span->support;
+    r->swing_plant = (uint32_t)span->swing;
+    r->t_0 = (float)(span->first * dt);
+    r->t_end = (float)(span->last * dt);
+    r->duration = (float)((span->last - span->first) * dt);
+    r->energy = (float)ff_walk_energy(motion->root, span->first, span->last, dt);
+    r->flight[0] = r->flight[1] = -1.0f;
+    if (ff_find_flight(plants, span->first, span->last, &from, &to)) {
+        r->flight[0] = (float)(from * dt);
+        r->flight[1] = (float)((to + 1) * dt);
+    }
+}
+
+/* Displacements and angles in frame S0. */
+static void describe_step(const ff_motion *motion, const ff_step_span *span, const feet *start,
+                          const feet *end, ff_vec2 left, ff_pack_action *r)
+{
+    ff_vec3 from = motion->root[span->first], to = motion->root[span->last];
+    ff_vec2 axis = ff_fwd2(from.z), origin = start->ball[r->support];
+    double side = r->swing == FF_LEFT ? 1.0 : -1.0;
+    ff_vec2 moved = ff_to_frame2(axis, ff_v2(to.x - from.x, to.y - from.y));
+    ff_vec2 swung = ff_to_frame2(axis, ff_sub2(end->ball[r->swing], left));
+    ff_vec2 landed = ff_to_frame2(axis, ff_sub2(end->ball[r->swing], origin));
+    store2(r->root_displacement, moved);
+    r->speed = r->duration > 0.0f
+                   ? (float)(ff_length2(moved) / ((span->last - span->first) * motion->frame_time))
+                   : 0.0f;
+    r->direction = (float)ff_atan2(moved.b, moved.a);
+    store2(r->swing_displacement, swung);
+    if (ff_length2(swung) < NO_DIRECTION)
+        r->flags |= FF_ACTION_ALPHA_UNDEFINED;
+    else
+        r->alpha = (float)ff_wrap(side * ff_atan2(swung.b, swung.a));
+    r->theta = (float)(to.z - from.z);
+    r->step_length = (float)landed.a;
+    r->step_width = (float)(side * landed.b); /* positive: the left foot is on the left */
+    store3(r->root_start, ff_to_frame2(axis, ff_sub2(ff_v2(from.x, from.y), origin)), 0.0);
+    store3(r->root_end, ff_to_frame2(axis, ff_sub2(ff_v2(to.x, to.y), origin)), to.z - from.z);
+    store3(r->land, landed, ff_wrap(end->yaw[r->swing] - from.z));
+    r->support_yaw = (float)ff_wrap(start->yaw[r->support] - from.z);
+}
+
+void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                        const ff_step_span *span, ff_action *out)
+{
+    memset(out, 0, sizeof *out);
+    ff_pack_action *r = &out->record;
+    out->first_frame = span->first;
+    out->last_frame = span->last;
+    describe_time(motion, plants, span, r);
+    feet start = feet_at(rig, motion, span->first), end = feet_at(rig, motion, span->last);
+    /* The swing foot's old footstep is its ball at its full plant, so that one action's f starts where the last one
+     * landed. */
+    ff_vec2 left = start.ball[r->swing];
+    if (span->swing_from >= 0) {
+        int full = ff_plant_full(plants, span->swing_from);
+        left = feet_at(rig, motion, full < span->first ? full : span->first).ball[r->swing];
+    }
+    describe_step(motion, span, &start, &end, left, r);
+    r->mode = find_mode(r, span);
+    ff_action_sample(rig, motion, start.ball[r->support], motion->root[span->first].z, out);
+}

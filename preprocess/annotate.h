@@ -1,0 +1,34 @@
+/* annotate.h - the annotation of one action: Table 1 of Beacco et al. 2013 and the sampled collider positions. */
+#ifndef FF_ANNOTATE_H
+#define FF_ANNOTATE_H
+
+#include "preprocess/steps.h"
+
+/* Where an action lies and what stands. Plants index ff_plants.items. */
+typedef struct ff_step_span {
+    int first, last; /* frames */
+    int support;     /* plant of the foot that stays */
+    int swing;       /* plant in which the other foot arrives */
+    int swing_from;  /* plant that the swing foot left, -1 = none in the clip: its place at first is taken */
+    int mode;        /* FF_MODE_*, or -1: walk or run, told apart by flight and speed */
+} ff_step_span;
+
+/* First frame in which the whole foot is down: flat_start; for a foot that is never flat (forefoot runners) the first
+ * frame in which the ball rests. */
+int ff_plant_full(const ff_plants *plants, int plant);
+
+/* Metabolic energy of walking (algorithms B.2), J/kg: integral of e_s + e_w v^2 over the root's ground path. */
+double ff_walk_energy(const ff_vec3 *root, int first, int last, double frame_time);
+
+/* Longest stretch of [first, last] in which no foot is down, in frames; returns false when there is none. */
+bool ff_find_flight(const ff_plants *plants, int first, int last, int *from, int *to);
+
+/* Fill record (all but clip and first_collider) and colliders. */
+void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                        const ff_step_span *span, ff_action *out);
+
+/* Fill colliders, collider_samples and coarse_radius of an action whose frames and frame S0 are given. */
+void ff_action_sample(const ff_rig *rig, const ff_motion *motion, ff_vec2 origin, double heading,
+                      ff_action *out);
+
+#endif

@@ -1,0 +1,15 @@
+/* step_check.h - what kind of step a span is, and whether it is fit to be an action. */
+#ifndef FF_STEP_CHECK_H
+#define FF_STEP_CHECK_H
+
+#include "preprocess/annotate.h"
+
+/* FF_MODE_* of a step from what surrounds it, or -1 to tell walk from run by its own figures. */
+int ff_step_mode(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                 const ff_step_span *span, int mode_tag, bool from_standing, bool to_standing);
+
+/* False when the step breaks a limit of algorithms A.6; reason (size bytes) then says which. */
+bool ff_step_acceptable(const ff_motion *motion, const ff_plants *plants, const ff_step_span *span,
+                        const ff_pack_action *record, char *reason, size_t size);
+
+#endif
