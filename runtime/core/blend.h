@@ -1,0 +1,67 @@
+/* blend.h - the blend space: walking examples as points of (forward, left, turn), with the simplices between them. */
+#ifndef FF_BLEND_H
+#define FF_BLEND_H
+
+#include "runtime/core/blend_simplex.h"
+#include "runtime/core/joints.h"
+
+#define FF_GAIT_KEYS 4 /* left contact, right toe-off, right contact, left toe-off */
+
+/* One example, in doubles and in phase u of [0, 4): section k lasts from key k to key k + 1. */
+typedef struct ff_blend_vertex {
+    ff_rates rates;
+    double period;                        /* s, of a cycle of steps */
+    double rate;                          /* frames per second of the stream */
+    double key[FF_GAIT_KEYS + 1];         /* fractions of the cycle, the last is 1 */
+    double lock_start[2], lock_length[2]; /* u: from where and for how long each ball stands still */
+    uint32_t first_frame, frame_count;
+    uint32_t idle; /* 1: no steps in it; sampled on the agent's idle clock */
+} ff_blend_vertex;
+
+typedef struct ff_blend_face {
+    int32_t vertex[3];
+    int32_t count;
+} ff_blend_face;
+
+/* The part of the pack's skeleton that synthesis computes with. */
+typedef struct ff_body_frame {
+    ff_vec3 offset[FF_JOINT_COUNT];
+    ff_vec3 heel[2], toe[2]; /* in the ankle's and in the ball's frame */
+    double thigh[2], shank[2];
+    double ball_rest; /* m, height of the ball joints when the foot is flat */
+} ff_body_frame;
+
+struct ff_blend_space {
+    const ff_pack *pack;
+    ff_body_frame body;
+    ff_blend_vertex *vertices;
+    ff_vec3 *points; /* of the vertices */
+    uint32_t vertex_count;
+    ff_blend_solid *solids;
+    uint32_t solid_count;
+    ff_blend_face *faces; /* the outside of the solids, and simplices that are flat by themselves */
+    uint32_t face_count;
+    int32_t idle;         /* vertex index of the idle example (its rates are zero), or -1 */
+    double neutral[2][3]; /* per foot: forward, left, yaw of its place under a standing body */
+    /* Solids by cell of a coarse grid over their bounds: cell_first[cell] .. cell_first[cell + 1] in cell_solids. */
+    ff_vec3 grid_low, grid_scale;
+    uint32_t *cell_first, *cell_solids;
+};
+
+#define FF_BLEND_GRID 8 /* cells per axis */
+
+/* A blend of up to four examples. */
+typedef struct ff_blend {
+    int32_t vertex[FF_BLEND_MAX]; /* -1: unused */
+    double weight[FF_BLEND_MAX];  /* of poses: w'_i = (w_i / T_i) / sum (w_j / T_j), study section 6 */
+    double period;                /* s, of the blended cycle */
+    ff_rates rates;               /* what the blend's root does */
+} ff_blend;
+
+/* The blend whose rates are the nearest to target. */
+void ff_blend_find(const ff_blend_space *space, ff_rates target, ff_blend *out);
+
+/* Fill the vertex tables from the pack; used by ff_blend_space_create. */
+ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error);
+
+#endif

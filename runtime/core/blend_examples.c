@@ -1,0 +1,133 @@
+/* From the pack's records to the vertices of a blend space. */
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/memory.h"
+#include "runtime/core/blend.h"
+
+#define IDLE_STEP_PERIOD 1.15 /* s: of steps taken where the blend is nearly idle (96 steps per minute) */
+
+static ff_vec3 vec3_of(const float v[3])
+{
+    return ff_v3((double)v[0], (double)v[1], (double)v[2]);
+}
+
+static void read_body(ff_blend_space *space)
+{
+    const ff_pack *pack = space->pack;
+    ff_body_frame *body = &space->body;
+    for (int j = 0; j < FF_JOINT_COUNT; ++j)
+        body->offset[j] = vec3_of(pack->joints[j].offset);
+    for (int foot = 0; foot < 2; ++foot) {
+        int leg = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
+        body->thigh[foot] = ff_length3(body->offset[leg + 1]);
+        body->shank[foot] = ff_length3(body->offset[leg + 2]);
+        body->heel[foot] = vec3_of(pack->points[FF_POINT_HEEL_L + foot].offset);
+        body->toe[foot] = vec3_of(pack->points[FF_POINT_TOE_L + foot].offset);
+    }
+    body->ball_rest = body->offset[FF_JOINT_HIPS].y;
+    for (int j = FF_JOINT_HIP_L; j <= FF_JOINT_BALL_L; ++j)
+        body->ball_rest += body->offset[j].y;
+}
+
+/* Phase u of a fraction of the cycle. */
+static double phase_of(const ff_blend_vertex *vertex, double fraction)
+{
+    int k = FF_GAIT_KEYS - 1;
+    while (k > 0 && fraction < vertex->key[k])
+        --k;
+    return k + (fraction - vertex->key[k]) / (vertex->key[k + 1] - vertex->key[k]);
+}
+
+static double wrap_phase(double u)
+{
+    return u - FF_GAIT_KEYS * floor(u / FF_GAIT_KEYS);
+}
+
+/* When each ball stands still. Where an example does not tell (idle) or tells nothing a step can be made of, the
+ * usual times: flat 0.07 of a cycle after contact, released 0.05 before toe-off (gait facts; study, section 2). */
+static void read_locks(const ff_pack_example *example, ff_blend_vertex *vertex)
+{
+    for (int foot = 0; foot < 2; ++foot) {
+        double contact = 2.0 * foot, start = contact + 0.5, length = 2.25;
+        if (!vertex->idle && example->lock[foot][1] >= 0.0f) {
+            double from = phase_of(vertex, ff_clamp((double)example->lock[foot][0], 0.0, 1.0));
+            double to = phase_of(vertex, (double)example->lock[foot][1]);
+            double found = wrap_phase(to - from);
+            double off = wrap_phase(from - contact + 1.0) - 1.0; /* after contact, from -1 to 3 */
+            if (found > 0.8 && found < 3.2 && off < 1.5) {
+                start = contact + off;
+                length = found;
+            }
+        }
+        vertex->lock_start[foot] = start;
+        vertex->lock_length[foot] = length;
+    }
+}
+
+static void read_vertex(const ff_blend_space *space, const ff_pack_example *example, ff_blend_vertex *vertex)
+{
+    const ff_pack_stream *stream = &space->pack->streams[example->stream];
+    *vertex = (ff_blend_vertex){0};
+    vertex->idle = (example->flags & FF_EXAMPLE_IDLE) != 0;
+    vertex->first_frame = stream->first_frame;
+    vertex->frame_count = stream->frame_count;
+    vertex->rate = (double)stream->rate;
+    vertex->period = vertex->idle ? IDLE_STEP_PERIOD : (double)example->period;
+    if (!vertex->idle)
+        vertex->rates =
+            (ff_rates){(double)example->v_forward, (double)example->v_left, (double)example->turn_rate};
+    for (int k = 0; k < FF_GAIT_KEYS; ++k)
+        vertex->key[k] = (double)example->key[k];
+    vertex->key[FF_GAIT_KEYS] = 1.0;
+    read_locks(example, vertex);
+}
+
+static double speed_of(ff_rates rates)
+{
+    return ff_length3(ff_blend_point(rates));
+}
+
+/* Where the feet of a standing body are: the mean of the idle example, or of the slowest walk's stance. */
+static void read_neutral(ff_blend_space *space)
+{
+    int32_t calm = space->idle >= 0 ? space->idle : 0;
+    for (uint32_t v = 0; v < space->vertex_count && space->idle < 0; ++v)
+        if (speed_of(space->vertices[v].rates) < speed_of(space->vertices[calm].rates)) calm = (int32_t)v;
+    const ff_blend_vertex *vertex = &space->vertices[calm];
+    for (int foot = 0; foot < 2; ++foot) {
+        double *neutral = space->neutral[foot];
+        for (uint32_t i = 0; i < vertex->frame_count; ++i) {
+            const ff_pack_foot *at = &space->pack->feet[2 * (vertex->first_frame + i) + (uint32_t)foot];
+            neutral[0] += (double)at->ball[0] / vertex->frame_count;
+            neutral[1] += (double)at->ball[1] / vertex->frame_count;
+            neutral[2] += (double)at->yaw / vertex->frame_count;
+        }
+        if (!vertex->idle) neutral[0] = 0.0; /* a walking foot's mean lies behind the body */
+    }
+}
+
+ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)
+{
+    const ff_pack *pack = space->pack;
+    space->idle = -1;
+    space->vertices = ff_calloc(pack->example_count, sizeof *space->vertices);
+    space->points = ff_calloc(pack->example_count, sizeof *space->points);
+    if (!space->vertices || !space->points)
+        return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory preparing %u examples", pack->example_count);
+    read_body(space);
+    uint32_t walking = 0;
+    for (uint32_t i = 0; i < pack->example_count; ++i) {
+        if (pack->examples[i].gait != FF_GAIT_WALK) continue;
+        ff_blend_vertex *vertex = &space->vertices[space->vertex_count];
+        read_vertex(space, &pack->examples[i], vertex);
+        space->points[space->vertex_count] = ff_blend_point(vertex->rates);
+        if (vertex->idle && space->idle < 0) space->idle = (int32_t)space->vertex_count;
+        walking += !vertex->idle;
+        ++space->vertex_count;
+    }
+    if (walking == 0)
+        return ff_fail(
+            error, FF_ERR_NO_DATA,
+            "the pack has no walking example: build it from clips with at least two strides in them");
+    read_neutral(space);
+    return FF_OK;
+}

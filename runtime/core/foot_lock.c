@@ -1,0 +1,218 @@
+#include "runtime/core/foot_lock.h"
+
+#define SLOPE_LIMIT 0.6         /* m/s, study section 4.2 */
+#define YAW_SLOPE_LIMIT 2.0     /* rad/s */
+#define PLAN_SPEED 2.5          /* m/s, how fast a footprint may move early in swing; none at the end */
+#define PLAN_TURN 6.0           /* rad/s, the same for its yaw */
+#define CLOSE_UP_SPEED 0.25     /* m/s (turning counted as in the blend space) */
+#define LEAST_LIFT 0.035        /* m, of the ball in mid swing (study, section 5: 4.5 cm for small steps) */
+#define LEAST_SPREAD 0.11       /* m between balls sideways while the feet are side by side */
+#define LEAST_SPREAD_AHEAD 0.30 /* m, from where on one foot in front of the other may be in line with it */
+
+void ff_root_predict(ff_vec2 position, double heading, ff_rates rates, double time, ff_vec2 *out_position,
+                     double *out_heading)
+{
+    double turn = rates.turn * time;
+    ff_vec2 forward = ff_fwd2(heading + 0.5 * turn);
+    ff_vec2 moved = ff_from_frame2(forward, ff_v2(rates.forward * time, rates.left * time));
+    double half = ff_clamp(0.5 * turn, -1.5, 1.5), square = half * half;
+    double chord =
+        1.0 - square / 6.0 * (1.0 - square / 20.0); /* sin(x)/x: the chord is shorter than the arc */
+    *out_position = ff_madd2(position, moved, chord);
+    *out_heading = heading + turn;
+}
+
+static ff_foothold place(ff_vec2 root, double heading, ff_foot_sample sample)
+{
+    ff_vec2 ball = ff_add2(root, ff_from_frame2(ff_fwd2(heading), ff_v2(sample.forward, sample.left)));
+    return (ff_foothold){ball.a, ball.b, sample.height, heading + sample.yaw};
+}
+
+ff_foothold ff_foot_of_clip(const ff_foot_scene *scene, int foot)
+{
+    return place(scene->position, scene->heading, ff_sample_foot(scene->space, scene->cursor, foot));
+}
+
+/* The clip's foot in the world at a later phase, time s from now, should the rates stay. */
+static ff_foothold clip_foot_later(const ff_foot_scene *scene, int foot, double phase, double time)
+{
+    ff_vec2 root;
+    double heading;
+    ff_root_predict(scene->position, scene->heading, scene->rates, time, &root, &heading);
+    ff_cursor cursor = ff_cursor_at(scene->space, scene->blend, phase, scene->idle_time + time);
+    return place(root, heading, ff_sample_foot(scene->space, &cursor, foot));
+}
+
+static ff_foothold subtract(ff_foothold p, ff_foothold q)
+{
+    return (ff_foothold){p.a - q.a, p.b - q.b, p.height - q.height, ff_wrap(p.yaw - q.yaw)};
+}
+
+/* How fast the clip's foot moves over the ground about a phase: 0 for a clip without skate at its own rates. */
+static ff_foothold clip_foot_speed(const ff_foot_scene *scene, int foot, double phase, double time)
+{
+    const double h = 0.02;
+    double later = ff_phase_advance(scene->space, scene->blend, phase, h);
+    ff_foothold step =
+        subtract(clip_foot_later(scene, foot, later, time + h), clip_foot_later(scene, foot, phase, time));
+    return (ff_foothold){step.a / h, step.b / h, step.height / h, step.yaw / h};
+}
+
+/* Slope of the offset of a foot that stands while the clip's foot moves at speed. */
+static ff_foothold standing_slope(ff_foothold speed)
+{
+    double pace = sqrt(speed.a * speed.a + speed.b * speed.b);
+    double keep = pace > SLOPE_LIMIT ? SLOPE_LIMIT / pace : 1.0;
+    return (ff_foothold){-speed.a * keep, -speed.b * keep, -ff_clamp(speed.height, -SLOPE_LIMIT, SLOPE_LIMIT),
+                         -ff_clamp(speed.yaw, -YAW_SLOPE_LIMIT, YAW_SLOPE_LIMIT)};
+}
+
+static double phase_to(double from, double to)
+{
+    return ff_phase_wrap(to - from);
+}
+
+void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot)
+{
+    double start, length;
+    ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
+    state->planted = 0;
+    state->from = subtract(state->now, ff_foot_of_clip(scene, foot));
+    state->slope = standing_slope(clip_foot_speed(scene, foot, scene->phase, 0.0));
+    state->elapsed = 0.0;
+    state->progress = 0.0;
+    state->phase_left = phase_to(scene->phase, start);
+}
+
+void ff_foot_land(ff_gait_foot *state, double ball_rest)
+{
+    state->planted = 1;
+    state->lock.height = ball_rest;
+    state->lock.yaw = ff_wrap(state->lock.yaw);
+    state->now = state->lock;
+}
+
+void ff_foot_hold(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing)
+{
+    ff_foot_sample sample = ff_sample_foot(scene->space, scene->cursor, foot);
+    state->now = state->lock;
+    state->pitch = sample.pitch * (1.0 - standing);
+}
+
+static double hermite(double s, double from, double slope_from, double to, double slope_to)
+{
+    double s2 = s * s, s3 = s2 * s;
+    return (2.0 * s3 - 3.0 * s2 + 1.0) * from + (s3 - 2.0 * s2 + s) * slope_from +
+           (3.0 * s2 - 2.0 * s3) * to + (s3 - s2) * slope_to;
+}
+
+/* The mean of where the clip's foot will be over its stance (Simpson's rule over three places). */
+static ff_foothold stance_mean(const ff_foot_scene *scene, int foot, ff_foothold landing, double start,
+                               double length, double time)
+{
+    double half = ff_phase_duration(scene->space, scene->blend, start, start + 0.5 * length);
+    double whole = half + ff_phase_duration(scene->space, scene->blend, start + 0.5 * length, start + length);
+    ff_foothold middle = clip_foot_later(scene, foot, start + 0.5 * length, time + half);
+    ff_foothold end = clip_foot_later(scene, foot, start + length, time + whole);
+    return (ff_foothold){(landing.a + 4.0 * middle.a + end.a) / 6.0,
+                         (landing.b + 4.0 * middle.b + end.b) / 6.0, scene->space->body.ball_rest,
+                         (landing.yaw + 4.0 * middle.yaw + end.yaw) / 6.0};
+}
+
+void ff_foot_neutral(const ff_foot_scene *scene, int foot, double time, ff_foothold *out)
+{
+    const double *neutral = scene->space->neutral[foot];
+    ff_vec2 root;
+    double heading;
+    ff_root_predict(scene->position, scene->heading, scene->rates, time, &root, &heading);
+    ff_foot_sample sample = {neutral[0], neutral[1], scene->space->body.ball_rest, neutral[2], 0.0};
+    *out = place(root, heading, sample);
+}
+
+/* A body that hardly moves puts its foot where it will stand. */
+static void close_up(const ff_foot_scene *scene, int foot, double time, ff_foothold *plan)
+{
+    double share = 1.0 - ff_smooth(ff_length3(ff_blend_point(scene->rates)) / CLOSE_UP_SPEED);
+    if (share <= 0.0) return;
+    ff_foothold stand;
+    ff_foot_neutral(scene, foot, time, &stand);
+    plan->a = ff_lerp(plan->a, stand.a, share);
+    plan->b = ff_lerp(plan->b, stand.b, share);
+    plan->yaw += share * ff_wrap(stand.yaw - plan->yaw);
+}
+
+/* Keep the new footprint on its own side of the standing foot: legs never cross. */
+static void keep_sides(const ff_gait_foot *other, int foot, ff_foothold *plan)
+{
+    ff_vec2 forward = ff_fwd2(plan->yaw);
+    ff_vec2 apart = ff_to_frame2(forward, ff_v2(plan->a - other->lock.a, plan->b - other->lock.b));
+    double side = foot == 0 ? 1.0 : -1.0;
+    double wanted = LEAST_SPREAD * (1.0 - ff_smooth(fabs(apart.a) / LEAST_SPREAD_AHEAD));
+    double missing = wanted - side * apart.b;
+    if (missing <= 0.0) return;
+    ff_vec2 push = ff_scale2(ff_left2(forward), side * missing);
+    plan->a += push.a;
+    plan->b += push.b;
+}
+
+/* Move the planned footprint towards the wanted one, the less the nearer it is to landing. */
+static void replan(ff_gait_foot *state, ff_foothold wanted, double progress, double dt)
+{
+    double room = 1.0 - progress;
+    double a = wanted.a - state->lock.a, b = wanted.b - state->lock.b;
+    double far = sqrt(a * a + b * b), most = PLAN_SPEED * room * dt;
+    double share = far > most ? most / far : 1.0;
+    state->lock.a += a * share;
+    state->lock.b += b * share;
+    double turn = ff_wrap(wanted.yaw - state->lock.yaw), most_turn = PLAN_TURN * room * dt;
+    state->lock.yaw += ff_clamp(turn, -most_turn, most_turn);
+    state->lock.height = wanted.height;
+}
+
+/* The ball's least height: an arc over the floor, and the heel never under it when the toes point up. */
+static double least_height(const ff_body_frame *body, int foot, double progress, double pitch)
+{
+    double arc = 4.0 * progress * (1.0 - progress), sine, cosine;
+    double least = body->ball_rest + LEAST_LIFT * arc * arc;
+    ff_sincos(pitch, &sine, &cosine);
+    int ankle = FF_JOINT_ANKLE_L + foot * FF_JOINT_LEG_STRIDE;
+    ff_vec3 heel = ff_sub3(body->heel[foot], body->offset[ankle + 1]);
+    return ff_max(least, body->ball_rest + heel.y * (1.0 - cosine) - heel.z * sine);
+}
+
+bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
+{
+    double start, length;
+    ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
+    double left = phase_to(scene->phase, start);
+    if (left > state->phase_left + 0.5) return true; /* the phase has passed the landing */
+    state->phase_left = left;
+    double time =
+        ff_phase_duration(scene->space, scene->blend, scene->phase, scene->phase + left) / scene->tempo;
+    bool first = state->elapsed == 0.0;
+    state->elapsed += scene->dt;
+    double span = state->elapsed + time;
+    state->progress = ff_max(state->progress, state->elapsed / span);
+    double s = state->progress;
+
+    ff_foothold landing = clip_foot_later(scene, foot, start, time);
+    ff_foothold wanted = stance_mean(scene, foot, landing, start, length, time);
+    close_up(scene, foot, time, &wanted);
+    keep_sides(other, foot, &wanted);
+    if (first) state->lock = wanted;
+    replan(state, wanted, s, scene->dt);
+
+    ff_foothold to = subtract(state->lock, landing);
+    ff_foothold slope = standing_slope(clip_foot_speed(scene, foot, start, time));
+    ff_foot_sample sample = ff_sample_foot(scene->space, scene->cursor, foot);
+    ff_foothold clip = place(scene->position, scene->heading, sample);
+    state->now.a = clip.a + hermite(s, state->from.a, state->slope.a * span, to.a, slope.a * span);
+    state->now.b = clip.b + hermite(s, state->from.b, state->slope.b * span, to.b, slope.b * span);
+    state->now.height = clip.height + hermite(s, state->from.height, state->slope.height * span, to.height,
+                                              slope.height * span);
+    state->now.yaw =
+        clip.yaw + hermite(s, state->from.yaw, state->slope.yaw * span, to.yaw, slope.yaw * span);
+    state->pitch = sample.pitch;
+    state->now.height = ff_max(state->now.height, least_height(&scene->space->body, foot, s, sample.pitch));
+    return false;
+}

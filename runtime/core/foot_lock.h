@@ -1,0 +1,45 @@
+/* foot_lock.h - feet that stand where they landed, and land where the root will want them (synthesis study,
+ * section 4): in stance the ball is at its lock; in swing the clip's foot is followed with an offset that leads from
+ * the old lock to the new one without a jump in place or speed. */
+#ifndef FF_FOOT_LOCK_H
+#define FF_FOOT_LOCK_H
+
+#include "runtime/core/gait_sample.h"
+
+/* What a foot needs to know of the moving body. */
+typedef struct ff_foot_scene {
+    const ff_blend_space *space;
+    const ff_blend *blend;
+    const ff_cursor *cursor; /* of the blend now */
+    ff_vec2 position;        /* root */
+    double heading;
+    ff_rates rates; /* of the root now */
+    double phase;
+    double idle_time;
+    double dt;
+    double tempo; /* factor on phase speed */
+} ff_foot_scene;
+
+/* Where the root will be after time s at constant rates (an arc). */
+void ff_root_predict(ff_vec2 position, double heading, ff_rates rates, double time, ff_vec2 *out_position,
+                     double *out_heading);
+
+/* The clip's foot put into the world, without any lock. */
+ff_foothold ff_foot_of_clip(const ff_foot_scene *scene, int foot);
+
+/* Where the foot of a standing body will be, time s from now. */
+void ff_foot_neutral(const ff_foot_scene *scene, int foot, double time, ff_foothold *out);
+
+/* The foot leaves the ground: the offset it has from the clip's foot starts the swing. */
+void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot);
+
+/* The foot lands and stays. */
+void ff_foot_land(ff_gait_foot *state, double ball_rest);
+
+/* One step of a planted foot; share_standing 0 to 1 flattens it. */
+void ff_foot_hold(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
+
+/* One step of a swing; other is the foot on the ground. Returns true when it is time to land. */
+bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot);
+
+#endif

@@ -1,0 +1,206 @@
+/* gait.c - standing, stepping and the change between them; the clock of the steps. */
+#include "runtime/core/base/random.h"
+#include "runtime/core/foot_lock.h"
+#include "runtime/core/gait_hips.h"
+
+#include <string.h>
+
+#define RATE_SMOOTHING                                                                                       \
+    0.10                 /* s: the blend follows the root's rates with this lag, the feet take up the rest */
+#define STAND_TIME 0.35  /* s from the walking to the standing pose and back */
+#define START_SPEED 0.12 /* m/s and rad/s above which a standing body begins to step ... */
+#define START_TURN 0.35
+#define STOP_SPEED 0.08 /* ... and below both of which a stepping one comes to a stand */
+#define STOP_TURN 0.20
+#define STAND_AHEAD 0.10 /* m, rad: how far from its place a foot may be for standing */
+#define STAND_ASIDE 0.06
+#define STAND_YAW (20.0 * FF_DEG)
+#define DRIFT_AHEAD                                                                                          \
+    0.15 /* m, rad: how far from its place the body may drift before a standing foot steps after it */
+#define DRIFT_YAW (28.0 * FF_DEG)
+#define STRETCH_FROM 0.10 /* m between a planted foot and the clip's from where on steps quicken ... */
+#define STRETCH_TO 0.30   /* ... to the most, and the foot steps as soon as the other stands */
+#define MOST_TEMPO 1.5
+#define STRETCH_YAW (40.0 * FF_DEG)
+#define LEAST_SWING 0.3 /* u: a swing that would be shorter is left out */
+
+size_t ff_gait_size(void)
+{
+    return sizeof(ff_gait);
+}
+
+int ff_gait_planted(const ff_gait *gait, int foot)
+{
+    return (int)gait->foot[foot].planted;
+}
+
+static void draw_style(ff_gait *gait, uint64_t variation)
+{
+    ff_random random = {variation, 0x67616974u, 0};
+    gait->style.cadence = ff_clamp(1.0 + 0.02 * ff_random_normal(&random), 0.95, 1.05);
+    gait->style.arms = ff_clamp(1.0 + 0.2 * ff_random_normal(&random), 0.6, 1.4);
+    gait->style.stoop = ff_clamp(0.02 * ff_random_normal(&random), -0.05, 0.05);
+    gait->idle_time = 20.0 * ff_random_unit(&random);
+    gait->first_foot = (uint32_t)(ff_random_next(&random) & 1u);
+}
+
+static ff_foot_scene scene_of(const ff_blend_space *space, const ff_gait *gait, const ff_cursor *cursor,
+                              ff_vec2 position, double heading, ff_rates rates, double dt)
+{
+    return (ff_foot_scene){space, &gait->blend, cursor,          position, heading,
+                           rates, gait->phase,  gait->idle_time, dt,       1.0};
+}
+
+void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
+                  uint64_t variation)
+{
+    memset(gait, 0, sizeof *gait);
+    draw_style(gait, variation);
+    ff_blend_find(space, gait->rates, &gait->blend);
+    gait->mode = FF_GAIT_STAND;
+    gait->stand = 1.0;
+    ff_cursor cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
+    ff_foot_scene scene = scene_of(space, gait, &cursor, position, heading, gait->rates, 0.0);
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_foot_neutral(&scene, foot, 0.0, &gait->foot[foot].lock);
+        ff_foot_land(&gait->foot[foot], space->body.ball_rest);
+    }
+}
+
+/* A foot's lock seen from where it would stand under the body: ahead, aside, yaw. */
+static ff_vec3 lock_error(const ff_foot_scene *scene, const ff_gait_foot *state, int foot)
+{
+    ff_foothold neutral;
+    ff_foot_neutral(scene, foot, 0.0, &neutral);
+    ff_vec2 off =
+        ff_to_frame2(ff_fwd2(scene->heading), ff_v2(state->lock.a - neutral.a, state->lock.b - neutral.b));
+    return ff_v3(off.a, off.b, ff_wrap(state->lock.yaw - neutral.yaw));
+}
+
+static bool may_stand(const ff_foot_scene *scene, const ff_gait *gait)
+{
+    for (int foot = 0; foot < 2; ++foot) {
+        if (!gait->foot[foot].planted) return false;
+        ff_vec3 error = lock_error(scene, &gait->foot[foot], foot);
+        if (fabs(error.x) > STAND_AHEAD || fabs(error.y) > STAND_ASIDE || fabs(error.z) > STAND_YAW)
+            return false;
+    }
+    return true;
+}
+
+static double speed_of(ff_rates rates)
+{
+    return sqrt(rates.forward * rates.forward + rates.left * rates.left);
+}
+
+/* How urgently a standing foot should step to follow the body (1 = at its limit). */
+static double drift(const ff_foot_scene *scene, const ff_gait *gait, int foot)
+{
+    ff_vec3 error = lock_error(scene, &gait->foot[foot], foot);
+    return ff_max(sqrt(error.x * error.x + error.y * error.y) / DRIFT_AHEAD, fabs(error.z) / DRIFT_YAW);
+}
+
+static bool wants_to_step(const ff_foot_scene *scene, const ff_gait *gait)
+{
+    double worst = ff_max(drift(scene, gait, 0), drift(scene, gait, 1));
+    if (worst > 1.4) return true;
+    if (gait->stand < 1.0) return false; /* first come to rest: the step then starts from a settled pose */
+    return worst > 1.0 || speed_of(gait->rates) > START_SPEED || fabs(gait->rates.turn) > START_TURN;
+}
+
+/* The foot on the side the body goes or turns to opens the way; going straight it is the one left behind. */
+static int choose_first_foot(const ff_foot_scene *scene, const ff_gait *gait)
+{
+    ff_rates rates = gait->rates;
+    double sideways = rates.left + 0.3 * rates.turn;
+    if (fabs(sideways) > 0.05 && fabs(sideways) > 0.2 * fabs(rates.forward)) return sideways > 0.0 ? 0 : 1;
+    double left = drift(scene, gait, 0), right = drift(scene, gait, 1);
+    if (fabs(left - right) > 0.2) return left > right ? 0 : 1;
+    return (int)gait->first_foot;
+}
+
+/* Put the clock where the chosen foot is about to leave the ground. */
+static void begin_stepping(const ff_foot_scene *scene, ff_gait *gait)
+{
+    double start, length;
+    int foot = choose_first_foot(scene, gait);
+    ff_blend_lock(scene->space, &gait->blend, foot, &start, &length);
+    gait->phase = ff_phase_wrap(start + length);
+    gait->mode = FF_GAIT_STEP;
+}
+
+/* How far the body has left the planted foot behind: 0 none, 1 at the limit. */
+static double stretch(const ff_foot_scene *scene, const ff_gait *gait, int foot)
+{
+    const ff_gait_foot *state = &gait->foot[foot];
+    if (!state->planted) return 0.0;
+    ff_foothold clip = ff_foot_of_clip(scene, foot);
+    double a = state->lock.a - clip.a, b = state->lock.b - clip.b;
+    double far = (sqrt(a * a + b * b) - STRETCH_FROM) / (STRETCH_TO - STRETCH_FROM);
+    return ff_clamp(ff_max(far, fabs(ff_wrap(state->lock.yaw - clip.yaw)) / STRETCH_YAW - 1.0), 0.0, 1.0);
+}
+
+static bool time_to_lift(const ff_foot_scene *scene, const ff_gait *gait, int foot)
+{
+    if (!gait->foot[1 - foot].planted) return false; /* walking: one foot is always down */
+    double start, length;
+    ff_blend_lock(scene->space, &gait->blend, foot, &start, &length);
+    double since = ff_phase_wrap(scene->phase - start);
+    if (since >= length && FF_GAIT_KEYS - since > LEAST_SWING) return true;
+    return stretch(scene, gait, foot) >= 1.0 && since > 0.5 && FF_GAIT_KEYS - since > LEAST_SWING;
+}
+
+static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
+{
+    ff_gait_foot *state = &gait->foot[foot];
+    if (state->planted && gait->mode == FF_GAIT_STEP && time_to_lift(scene, gait, foot))
+        ff_foot_lift(scene, state, foot);
+    if (state->planted) {
+        ff_foot_hold(scene, state, foot, ff_smooth(gait->stand));
+    } else if (ff_foot_swing(scene, state, &gait->foot[1 - foot], foot)) {
+        ff_foot_land(state, scene->space->body.ball_rest);
+        ff_foot_hold(scene, state, foot, ff_smooth(gait->stand));
+    }
+}
+
+static void follow_rates(ff_gait *gait, ff_rates rates, double dt)
+{
+    double share = 1.0 - ff_exp(-dt / RATE_SMOOTHING);
+    gait->rates.forward += share * (rates.forward - gait->rates.forward);
+    gait->rates.left += share * (rates.left - gait->rates.left);
+    gait->rates.turn += share * (rates.turn - gait->rates.turn);
+}
+
+static void change_mode(const ff_foot_scene *scene, ff_gait *gait)
+{
+    if (gait->mode == FF_GAIT_STAND) {
+        if (wants_to_step(scene, gait)) begin_stepping(scene, gait);
+    } else if (speed_of(gait->rates) < STOP_SPEED && fabs(gait->rates.turn) < STOP_TURN &&
+               may_stand(scene, gait)) {
+        gait->mode = FF_GAIT_STAND;
+    }
+}
+
+void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
+                  ff_rates rates, double dt)
+{
+    follow_rates(gait, rates, dt);
+    ff_blend_find(space, gait->rates, &gait->blend);
+    gait->idle_time += dt;
+
+    ff_cursor cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
+    ff_foot_scene scene = scene_of(space, gait, &cursor, position, heading, rates, dt);
+    change_mode(&scene, gait);
+    if (gait->mode == FF_GAIT_STEP) {
+        double most = ff_max(stretch(&scene, gait, 0), stretch(&scene, gait, 1));
+        scene.tempo = (1.0 + (MOST_TEMPO - 1.0) * ff_smooth(most)) / gait->style.cadence;
+        gait->phase = ff_phase_advance(space, &gait->blend, gait->phase, dt * scene.tempo);
+        cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
+        scene.phase = gait->phase;
+    }
+    double toward = gait->mode == FF_GAIT_STAND ? dt / STAND_TIME : -dt / STAND_TIME;
+    gait->stand = ff_clamp(gait->stand + toward, 0.0, 1.0);
+    for (int foot = 0; foot < 2; ++foot)
+        step_foot(&scene, gait, foot);
+    ff_gait_lower_hips(space, gait, &cursor, position, heading, dt);
+}

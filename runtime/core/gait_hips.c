@@ -1,0 +1,71 @@
+#include "runtime/core/gait_hips.h"
+
+#include "runtime/core/leg_ik.h"
+
+#define MOST_DROP 0.12 /* m */
+#define DROP_FREQUENCY                                                                                       \
+    14.0 /* rad/s, of the critically damped follower (about 0.2 s to settle; study, section 4.5) */
+
+bool ff_gait_idle_cursor(const ff_blend_space *space, const ff_gait *gait, ff_cursor *out)
+{
+    if (space->idle < 0 || !(gait->stand > 0.0)) return false;
+    *out = ff_cursor_of_vertex(space, space->idle, ff_idle_fraction(space, gait->idle_time));
+    return true;
+}
+
+void ff_gait_hips(const ff_blend_space *space, const ff_gait *gait, const ff_cursor *cursor, ff_vec2 position,
+                  double heading, ff_vec3 *hips, ff_quat *rotation)
+{
+    ff_vec3 place = ff_sample_hips(space, cursor);
+    ff_quat turn = ff_sample_rotation(space, cursor, FF_JOINT_HIPS);
+    ff_cursor idle;
+    if (ff_gait_idle_cursor(space, gait, &idle)) {
+        double share = ff_smooth(gait->stand);
+        place = ff_lerp3(place, ff_sample_hips(space, &idle), share);
+        turn = ff_quat_nlerp(turn, ff_sample_rotation(space, &idle, FF_JOINT_HIPS), share);
+    }
+    ff_vec2 ground = ff_add2(position, ff_from_frame2(ff_fwd2(heading), ff_v2(place.x, place.y)));
+    *hips = ff_ground(ground, place.z);
+    *rotation = ff_quat_unit(ff_quat_mul(ff_quat_yaw(heading), turn));
+}
+
+ff_quat ff_gait_foot_rotation(double yaw, double pitch)
+{
+    return ff_quat_mul(ff_quat_yaw(yaw), ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -pitch));
+}
+
+ff_vec3 ff_gait_ankle(const ff_body_frame *body, int foot, ff_foothold ball, ff_quat rotation)
+{
+    ff_vec3 to_ball = body->offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+    return ff_sub3(ff_v3(ball.b, ball.height, ball.a), ff_quat_rotate(rotation, to_ball));
+}
+
+double ff_gait_lack(ff_vec3 hip, ff_vec3 ankle, double reach)
+{
+    double x = ankle.x - hip.x, z = ankle.z - hip.z;
+    return hip.y - ankle.y - sqrt(ff_max(reach * reach - x * x - z * z, 0.0));
+}
+
+void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cursor *cursor, ff_vec2 position,
+                        double heading, double dt)
+{
+    const ff_body_frame *body = &space->body;
+    ff_vec3 hips;
+    ff_quat rotation;
+    ff_gait_hips(space, gait, cursor, position, heading, &hips, &rotation);
+    double wanted = 0.0;
+    for (int foot = 0; foot < 2; ++foot) {
+        const ff_gait_foot *state = &gait->foot[foot];
+        int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
+        ff_vec3 hip = ff_add3(hips, ff_quat_rotate(rotation, body->offset[joint]));
+        ff_quat turn = ff_gait_foot_rotation(state->now.yaw, state->pitch);
+        double reach = FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]);
+        wanted = ff_max(wanted, ff_gait_lack(hip, ff_gait_ankle(body, foot, state->now, turn), reach));
+    }
+    wanted = ff_min(wanted, MOST_DROP);
+    /* Exact step of the critically damped oscillator, so that it is stable for any dt. */
+    double decay = ff_exp(-DROP_FREQUENCY * dt), away = gait->hips_drop - wanted;
+    double push = (gait->hips_speed + DROP_FREQUENCY * away) * dt;
+    gait->hips_speed = (gait->hips_speed - DROP_FREQUENCY * push) * decay;
+    gait->hips_drop = wanted + (away + push) * decay;
+}

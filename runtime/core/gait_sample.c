@@ -1,0 +1,148 @@
+#include "runtime/core/gait_sample.h"
+
+double ff_phase_wrap(double phase)
+{
+    double wrapped = phase - FF_GAIT_KEYS * floor(phase / FF_GAIT_KEYS);
+    return wrapped < FF_GAIT_KEYS ? wrapped : 0.0;
+}
+
+double ff_idle_fraction(const ff_blend_space *space, double idle_time)
+{
+    if (space->idle < 0) return 0.0;
+    const ff_blend_vertex *idle = &space->vertices[space->idle];
+    double frames = idle_time * idle->rate / idle->frame_count;
+    return frames - floor(frames);
+}
+
+static void add_part(ff_cursor *cursor, const ff_blend_vertex *vertex, double fraction, double weight)
+{
+    double place = fraction * vertex->frame_count;
+    double whole = floor(place);
+    uint32_t frame = (uint32_t)whole % vertex->frame_count;
+    uint32_t part = cursor->count++;
+    cursor->part[part].frame[0] = vertex->first_frame + frame;
+    cursor->part[part].frame[1] = vertex->first_frame + (frame + 1) % vertex->frame_count;
+    cursor->part[part].weight[1] = weight * (place - whole);
+    cursor->part[part].weight[0] = weight - cursor->part[part].weight[1];
+}
+
+ff_cursor ff_cursor_at(const ff_blend_space *space, const ff_blend *blend, double phase, double idle_time)
+{
+    ff_cursor cursor;
+    cursor.count = 0;
+    double wrapped = ff_phase_wrap(phase);
+    int section = (int)wrapped;
+    double share = wrapped - section;
+    for (int i = 0; i < FF_BLEND_MAX; ++i) {
+        if (blend->vertex[i] < 0 || !(blend->weight[i] > 0.0)) continue;
+        const ff_blend_vertex *vertex = &space->vertices[blend->vertex[i]];
+        double fraction = vertex->idle ? ff_idle_fraction(space, idle_time)
+                                       : ff_lerp(vertex->key[section], vertex->key[section + 1], share);
+        add_part(&cursor, vertex, fraction, blend->weight[i]);
+    }
+    return cursor;
+}
+
+ff_cursor ff_cursor_of_vertex(const ff_blend_space *space, int32_t vertex, double fraction)
+{
+    ff_cursor cursor;
+    cursor.count = 0;
+    add_part(&cursor, &space->vertices[vertex], fraction, 1.0);
+    return cursor;
+}
+
+ff_foot_sample ff_sample_foot(const ff_blend_space *space, const ff_cursor *cursor, int foot)
+{
+    ff_foot_sample sample = {0.0, 0.0, 0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < cursor->count; ++i)
+        for (int k = 0; k < 2; ++k) {
+            const ff_pack_foot *at = &space->pack->feet[2 * cursor->part[i].frame[k] + (uint32_t)foot];
+            double weight = cursor->part[i].weight[k];
+            sample.forward += weight * at->ball[0];
+            sample.left += weight * at->ball[1];
+            sample.height += weight * at->ball[2];
+            sample.yaw += weight * at->yaw;
+            sample.pitch += weight * at->pitch;
+        }
+    return sample;
+}
+
+ff_vec3 ff_sample_hips(const ff_blend_space *space, const ff_cursor *cursor)
+{
+    ff_vec3 hips = ff_v3(0.0, 0.0, 0.0);
+    for (uint32_t i = 0; i < cursor->count; ++i)
+        for (int k = 0; k < 2; ++k) {
+            const float *at = space->pack->frames[cursor->part[i].frame[k]].hips;
+            hips =
+                ff_madd3(hips, ff_v3((double)at[0], (double)at[1], (double)at[2]), cursor->part[i].weight[k]);
+        }
+    return hips;
+}
+
+/* Weighted mean on the hemisphere of the first part, normalised: for examples within 60 degrees the same as chains of
+ * slerp within 1 degree (algorithms D.1). */
+ff_quat ff_sample_rotation(const ff_blend_space *space, const ff_cursor *cursor, int joint)
+{
+    ff_quat sum = {0.0, 0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < cursor->count; ++i)
+        for (int k = 0; k < 2; ++k) {
+            const int16_t *q =
+                space->pack->rotations[(size_t)cursor->part[i].frame[k] * FF_JOINT_COUNT + (size_t)joint];
+            double weight = cursor->part[i].weight[k];
+            double side = sum.x * q[0] + sum.y * q[1] + sum.z * q[2] + sum.w * q[3];
+            if (side < 0.0) weight = -weight;
+            sum.x += weight * q[0];
+            sum.y += weight * q[1];
+            sum.z += weight * q[2];
+            sum.w += weight * q[3];
+        }
+    return ff_quat_unit(sum);
+}
+
+static double section_duration(const ff_blend_space *space, const ff_blend *blend, int section)
+{
+    double duration = 0.0;
+    for (int i = 0; i < FF_BLEND_MAX; ++i) {
+        if (blend->vertex[i] < 0) continue;
+        const ff_blend_vertex *vertex = &space->vertices[blend->vertex[i]];
+        duration += blend->weight[i] * vertex->period * (vertex->key[section + 1] - vertex->key[section]);
+    }
+    return duration;
+}
+
+double ff_phase_duration(const ff_blend_space *space, const ff_blend *blend, double from, double to)
+{
+    double total = 0.0, u = from;
+    while (u < to) {
+        double floor_u = floor(u);
+        double next = ff_min(floor_u + 1.0, to);
+        total += (next - u) * section_duration(space, blend, (int)ff_phase_wrap(floor_u));
+        u = next;
+    }
+    return total;
+}
+
+double ff_phase_advance(const ff_blend_space *space, const ff_blend *blend, double phase, double dt)
+{
+    double u = ff_phase_wrap(phase);
+    for (int guard = 0; guard < 16 && dt > 0.0; ++guard) {
+        int section = (int)u;
+        double duration = section_duration(space, blend, section);
+        double left = (section + 1 - u) * duration;
+        if (dt < left) return u + dt / duration;
+        dt -= left;
+        u = section + 1 < FF_GAIT_KEYS ? section + 1 : 0.0;
+    }
+    return u;
+}
+
+void ff_blend_lock(const ff_blend_space *space, const ff_blend *blend, int foot, double *start,
+                   double *length)
+{
+    *start = *length = 0.0;
+    for (int i = 0; i < FF_BLEND_MAX; ++i) {
+        if (blend->vertex[i] < 0) continue;
+        *start += blend->weight[i] * space->vertices[blend->vertex[i]].lock_start[foot];
+        *length += blend->weight[i] * space->vertices[blend->vertex[i]].lock_length[foot];
+    }
+}

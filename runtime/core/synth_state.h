@@ -1,0 +1,46 @@
+/* synth_state.h - what synthesis remembers of one agent. Plain data, no pointers, no padding: hashed as bytes. */
+#ifndef FF_SYNTH_STATE_H
+#define FF_SYNTH_STATE_H
+
+#include "runtime/core/blend.h"
+
+enum { FF_GAIT_STAND, FF_GAIT_STEP }; /* ff_gait.mode */
+
+/* A foot as a point of the ground and the air over it. */
+typedef struct ff_foothold {
+    double a, b, height, yaw; /* of the ball, in the world */
+} ff_foothold;
+
+typedef struct ff_gait_foot {
+    ff_foothold lock;  /* planted: where it stands; in swing: where it will land */
+    ff_foothold now;   /* where the ball is */
+    ff_foothold from;  /* in swing: offset from the clip's foot when it left the ground */
+    ff_foothold slope; /* 1/s, of that offset */
+    double pitch;      /* rad, toes up + */
+    double elapsed;    /* s, of the swing */
+    double progress;   /* 0 to 1 of the swing */
+    double phase_left; /* u, to the landing */
+    uint32_t planted, unused;
+} ff_gait_foot;
+
+/* Drawn once from the agent's variation. */
+typedef struct ff_gait_style {
+    double cadence; /* factor on the cycle's period */
+    double arms;    /* factor on the arm swing */
+    double stoop;   /* rad, forward bend of the spine */
+} ff_gait_style;
+
+struct ff_gait {
+    ff_gait_foot foot[2];
+    ff_blend blend;
+    ff_rates rates;    /* smoothed: what the blend follows */
+    double phase;      /* u in [0, 4) */
+    double stand;      /* 0 walking to 1 standing: share of the idle pose, before smoothing */
+    double idle_time;  /* s, in the idle example's cycle */
+    double hips_drop;  /* m, below the blended height, so that both legs reach */
+    double hips_speed; /* m/s, of hips_drop */
+    ff_gait_style style;
+    uint32_t mode, first_foot; /* first_foot: which one steps first when nothing else decides */
+};
+
+#endif

@@ -1,0 +1,249 @@
+/* walker_pack.h - packs for tests whose every foot is known in closed form: walkers on a grid of rates, feet planted
+ * exactly, joined by Kuhn's subdivision of the grid into tetrahedra. */
+#ifndef FF_TEST_WALKER_PACK_H
+#define FF_TEST_WALKER_PACK_H
+
+#include "preprocess/pack_write.h"
+#include "runtime/core/joints.h"
+#include "runtime/core/leg_ik.h"
+#include "runtime/core/synth.h"
+#include "tests/check.h"
+
+#include <stdio.h>
+
+typedef struct ff_walker_grid {
+    int count[3];
+    double axis[3][8]; /* forward, left, turn; each increasing, with 0 among them */
+    double rate;       /* frames per second */
+} ff_walker_grid;
+
+static const ff_walker_grid ff_walker_grid_full = {
+    {5, 3, 3}, {{-0.8, 0.0, 0.6, 1.2, 1.8}, {-0.5, 0.0, 0.5}, {-1.4, 0.0, 1.4}}, 60.0};
+static const ff_walker_grid ff_walker_grid_tiny = {{2, 1, 1}, {{0.0, 1.2}, {0.0}, {0.0}}, 8.0};
+
+#define FF_WALKER_BALL_REST 0.02
+#define FF_WALKER_HIPS 0.93
+#define FF_WALKER_STANCE 0.62 /* of the cycle */
+
+static const double ff_walker_offsets[FF_JOINT_COUNT][3] = {
+    {0, FF_WALKER_HIPS, 0}, {0, 0.1, 0},      {0, 0.25, 0},      {0, 0.2, 0},      {0, 0.1, 0.02},
+    {0.03, 0.15, 0},        {0.14, 0, 0},     {0.28, 0, 0},      {0.25, 0, 0},     {-0.03, 0.15, 0},
+    {-0.14, 0, 0},          {-0.28, 0, 0},    {-0.25, 0, 0},     {0.09, -0.03, 0}, {0, -0.41, 0},
+    {0, -0.41, 0},          {0, -0.06, 0.13}, {-0.09, -0.03, 0}, {0, -0.41, 0},    {0, -0.41, 0},
+    {0, -0.06, 0.13}};
+static const double ff_walker_points[FF_POINT_COUNT][4] = {
+    {FF_JOINT_HEAD, 0, 0.2, 0},         {FF_JOINT_WRIST_L, 0.15, 0, 0},
+    {FF_JOINT_WRIST_R, -0.15, 0, 0},    {FF_JOINT_BALL_L, 0, -0.02, 0.06},
+    {FF_JOINT_BALL_R, 0, -0.02, 0.06},  {FF_JOINT_ANKLE_L, 0, -0.06, -0.05},
+    {FF_JOINT_ANKLE_R, 0, -0.06, -0.05}};
+
+static inline void *ff_walker_push(ff_array *array, size_t count, size_t size)
+{
+    void *at = ff_array_grow(array, count, size);
+    assert_non_null(at);
+    memset(at, 0, count * size);
+    return at;
+}
+
+static inline void ff_walker_skeleton(ff_pack_content *content)
+{
+    ff_pack_joint *joint = ff_walker_push(&content->joints, FF_JOINT_COUNT, sizeof *joint);
+    ff_pack_point *point = ff_walker_push(&content->points, FF_POINT_COUNT, sizeof *point);
+    for (int j = 0; j < FF_JOINT_COUNT; ++j) {
+        char name[16];
+        snprintf(name, sizeof name, "joint%d", j);
+        joint[j] = (ff_pack_joint){ff_joint_parents[j], ff_pack_add_string(content, name), {0}, 0.05f};
+        for (int i = 0; i < 3; ++i)
+            joint[j].offset[i] = (float)ff_walker_offsets[j][i];
+    }
+    for (int p = 0; p < FF_POINT_COUNT; ++p) {
+        point[p].joint = (int32_t)ff_walker_points[p][0];
+        point[p].kind = (uint32_t)p;
+        for (int i = 0; i < 3; ++i)
+            point[p].offset[i] = (float)ff_walker_points[p][i + 1];
+    }
+}
+
+/* A foot of the closed-form walk, in the root frame. */
+typedef struct ff_walker_foot {
+    double forward, left, height, yaw, pitch;
+} ff_walker_foot;
+
+/* A point that stands in the world, seen from a root that moves at constant rates and passed it (beside it by `aside`)
+ * time seconds ago. */
+static inline ff_vec2 ff_walker_standing(ff_rates rates, double aside, double time)
+{
+    double turn = rates.turn * time, s = fabs(turn) > 1e-9 ? sin(turn) / rates.turn : time;
+    double c = fabs(turn) > 1e-9 ? (1.0 - cos(turn)) / rates.turn : 0.0;
+    ff_vec2 moved = ff_v2(rates.forward * s - rates.left * c, rates.forward * c + rates.left * s);
+    return ff_to_frame2(ff_fwd2(turn), ff_sub2(ff_v2(0.0, aside), moved));
+}
+
+static inline ff_walker_foot ff_walker_foot_at(ff_rates rates, double period, int foot, double fraction,
+                                               bool idle)
+{
+    double aside = foot == 0 ? 0.09 : -0.09, toe_out = foot == 0 ? 0.1 : -0.1;
+    if (idle) return (ff_walker_foot){0.0, aside, FF_WALKER_BALL_REST, toe_out, 0.0};
+    double x = fraction - 0.5 * foot;
+    x -= floor(x);
+    double half = 0.5 * FF_WALKER_STANCE * period, pace = ff_clamp(fabs(rates.forward), 0.15, 1.3) / 1.3;
+    double early = 1.0 - ff_smooth(x / 0.08), late = ff_smooth((x - 0.38) / (FF_WALKER_STANCE - 0.38));
+    ff_walker_foot at;
+    ff_vec2 place;
+    if (x < FF_WALKER_STANCE) {
+        double time = x * period - half;
+        place = ff_walker_standing(rates, aside, time);
+        at.yaw = toe_out - rates.turn * time;
+        at.pitch = pace * (0.4 * early - 1.05 * late);
+        at.height = FF_WALKER_BALL_REST + 0.18 * sin(ff_max(at.pitch, 0.0));
+    } else {
+        double s = (x - FF_WALKER_STANCE) / (1.0 - FF_WALKER_STANCE), h = ff_smooth(s);
+        double span = (1.0 - FF_WALKER_STANCE) * period, e = 1e-4;
+        ff_vec2 p = ff_walker_standing(rates, aside, half), q = ff_walker_standing(rates, aside, -half);
+        ff_vec2 dp = ff_scale2(ff_sub2(p, ff_walker_standing(rates, aside, half - e)), span / e);
+        ff_vec2 dq = ff_scale2(ff_sub2(ff_walker_standing(rates, aside, e - half), q), span / e);
+        double h10 = s * (1.0 - s) * (1.0 - s), h11 = -s * s * (1.0 - s);
+        place = ff_add2(ff_add2(ff_scale2(p, 1.0 - h), ff_scale2(q, h)),
+                        ff_add2(ff_scale2(dp, h10), ff_scale2(dq, h11)));
+        at.yaw = toe_out + rates.turn * half * (2.0 * h - 1.0);
+        at.pitch = pace * (-1.05 * (1.0 - ff_smooth(s / 0.7)) + 0.4 * ff_smooth((s - 0.5) / 0.5));
+        at.height =
+            FF_WALKER_BALL_REST + 0.06 * sin(FF_PI * s) * sin(FF_PI * s) + 0.18 * sin(ff_max(at.pitch, 0.0));
+    }
+    at.forward = place.a;
+    at.left = place.b;
+    return at;
+}
+
+static inline ff_vec3 ff_walker_offset(int joint)
+{
+    return ff_v3(ff_walker_offsets[joint][0], ff_walker_offsets[joint][1], ff_walker_offsets[joint][2]);
+}
+
+static inline void ff_walker_leg(ff_vec3 hips, ff_walker_foot at, int foot, ff_quat *rotations)
+{
+    int j = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
+    ff_quat turn = ff_quat_mul(ff_quat_yaw(at.yaw), ff_quat_axis(ff_v3(1, 0, 0), -at.pitch));
+    ff_vec3 ankle =
+        ff_sub3(ff_v3(at.left, at.height, at.forward), ff_quat_rotate(turn, ff_walker_offset(j + 3)));
+    ff_leg leg;
+    leg.thigh = ff_quat_axis(ff_v3(1, 0, 0), -0.3);
+    leg.shank = ff_quat_axis(ff_v3(1, 0, 0), 0.3);
+    leg.hip = ff_add3(hips, ff_walker_offset(j));
+    leg.knee = ff_add3(leg.hip, ff_quat_rotate(leg.thigh, ff_walker_offset(j + 1)));
+    leg.ankle = ff_add3(leg.knee, ff_quat_rotate(leg.shank, ff_walker_offset(j + 2)));
+    ff_leg_solve(&leg, leg.hip, ankle);
+    rotations[j] = leg.thigh;
+    rotations[j + 1] = ff_quat_mul(ff_quat_conj(leg.thigh), leg.shank);
+    rotations[j + 2] = ff_quat_mul(ff_quat_conj(leg.shank), turn);
+}
+
+static inline void ff_walker_frame(ff_pack_content *content, ff_rates rates, double period, double fraction,
+                                   bool idle)
+{
+    ff_quat rotations[FF_JOINT_COUNT];
+    for (int j = 0; j < FF_JOINT_COUNT; ++j)
+        rotations[j] = FF_QUAT_IDENTITY;
+    double pace = idle ? 0.0 : ff_min(fabs(rates.forward), 1.5);
+    double bob = -0.012 * pace * cos(2.0 * FF_TAU * (fraction - 0.02)), sway = 0.02 * sin(FF_TAU * fraction);
+    ff_vec3 hips = ff_v3(idle ? 0.0 : sway, FF_WALKER_HIPS - 0.015 - 0.012 * pace + bob, 0.0);
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_walker_foot at = ff_walker_foot_at(rates, period, foot, fraction, idle);
+        ff_pack_foot *out = ff_walker_push(&content->feet, 1, sizeof *out);
+        *out = (ff_pack_foot){
+            {(float)at.forward, (float)at.left, (float)at.height}, (float)at.yaw, (float)at.pitch};
+        ff_walker_leg(hips, at, foot, rotations);
+        double side = foot == 0 ? 1.0 : -1.0, swing = side * 0.35 * pace * cos(FF_TAU * fraction);
+        int shoulder = foot == 0 ? FF_JOINT_SHOULDER_L : FF_JOINT_SHOULDER_R;
+        rotations[shoulder] =
+            ff_quat_mul(ff_quat_axis(ff_v3(1, 0, 0), swing), ff_quat_axis(ff_v3(0, 0, 1), -side * 1.45));
+    }
+    ff_pack_frame *frame = ff_walker_push(&content->frames, 1, sizeof *frame);
+    frame->hips[0] = (float)hips.z;
+    frame->hips[1] = (float)hips.x;
+    frame->hips[2] = (float)hips.y;
+    int16_t(*out)[4] = ff_walker_push(&content->rotations, FF_JOINT_COUNT, sizeof *out);
+    for (int j = 0; j < FF_JOINT_COUNT; ++j)
+        ff_pack_quantise(ff_quat_unit(rotations[j]), out[j]);
+}
+
+static inline void ff_walker_example(ff_pack_content *content, const ff_walker_grid *grid, ff_rates rates,
+                                     bool idle)
+{
+    double wanted = idle ? 2.0 : 1.25 - 0.15 * ff_min(fabs(rates.forward), 1.8) - 0.2 * fabs(rates.left);
+    uint32_t frames = (uint32_t)(wanted * grid->rate + 0.5);
+    double period = frames / grid->rate;
+    ff_pack_stream *stream = ff_walker_push(&content->streams, 1, sizeof *stream);
+    *stream = (ff_pack_stream){(uint32_t)content->frames.count, frames, (float)grid->rate, FF_STREAM_CYCLIC};
+    ff_pack_example *example = ff_walker_push(&content->examples, 1, sizeof *example);
+    example->name = ff_pack_add_string(content, idle ? "idle" : "walk");
+    example->stream = (uint32_t)content->streams.count - 1;
+    example->gait = FF_GAIT_WALK;
+    example->flags = idle ? FF_EXAMPLE_IDLE : FF_EXAMPLE_DERIVED;
+    example->period = (float)period;
+    example->v_forward = (float)rates.forward;
+    example->v_left = (float)rates.left;
+    example->turn_rate = (float)rates.turn;
+    static const float keys[2][4] = {{0.0f, 0.12f, 0.5f, 0.62f}, {0.0f, 0.1f, 0.5f, 0.6f}};
+    memcpy(example->key, keys[idle], sizeof example->key);
+    static const float locks[2][2][2] = {{{0.08f, 0.57f}, {0.58f, 0.07f}}, {{0.0f, -1.0f}, {0.0f, -1.0f}}};
+    memcpy(example->lock, locks[idle], sizeof example->lock);
+    for (uint32_t i = 0; i < frames; ++i)
+        ff_walker_frame(content, rates, period, (double)i / frames, idle);
+}
+
+static inline int32_t ff_walker_index(const ff_walker_grid *grid, const int at[3])
+{
+    return (at[0] * grid->count[1] + at[1]) * grid->count[2] + at[2];
+}
+
+/* Kuhn: along each of the 6 orders of the axes from one corner of the cell to the other. A flat axis is skipped, which
+ * leaves triangles or segments. */
+static inline void ff_walker_cell(ff_pack_content *content, const ff_walker_grid *grid, const int corner[3])
+{
+    static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    for (int o = 0; o < 6; ++o) {
+        int at[3] = {corner[0], corner[1], corner[2]}, count = 0;
+        ff_pack_simplex simplex = {{-1, -1, -1, -1}, FF_GAIT_WALK};
+        simplex.vertex[count++] = ff_walker_index(grid, at);
+        for (int i = 0; i < 3; ++i) {
+            if (grid->count[orders[o][i]] == 1) continue;
+            ++at[orders[o][i]];
+            simplex.vertex[count++] = ff_walker_index(grid, at);
+        }
+        ff_pack_simplex *out = ff_walker_push(&content->simplices, 1, sizeof *out);
+        *out = simplex;
+    }
+}
+
+static inline void ff_walker_content(ff_pack_content *content, const ff_walker_grid *grid)
+{
+    memset(content, 0, sizeof *content);
+    ff_walker_skeleton(content);
+    for (int i = 0; i < grid->count[0]; ++i)
+        for (int j = 0; j < grid->count[1]; ++j)
+            for (int k = 0; k < grid->count[2]; ++k)
+                ff_walker_example(content, grid,
+                                  (ff_rates){grid->axis[0][i], grid->axis[1][j], grid->axis[2][k]}, false);
+    ff_walker_example(content, grid, (ff_rates){0.0, 0.0, 0.0}, true);
+    for (int i = 0; i < (grid->count[0] > 1 ? grid->count[0] - 1 : 1); ++i)
+        for (int j = 0; j < (grid->count[1] > 1 ? grid->count[1] - 1 : 1); ++j)
+            for (int k = 0; k < (grid->count[2] > 1 ? grid->count[2] - 1 : 1); ++k)
+                ff_walker_cell(content, grid, (const int[3]){i, j, k});
+    static const ff_pack_point2 hull[4] = {{-0.8f, -0.5f}, {1.8f, -0.5f}, {1.8f, 0.5f}, {-0.8f, 0.5f}};
+    memcpy(ff_walker_push(&content->hull, 4, sizeof *hull), hull, sizeof hull);
+}
+
+/* The pack as bytes (free() them) of a 64-byte aligned block. */
+static inline void *ff_walker_image(const ff_walker_grid *grid, size_t *size)
+{
+    ff_pack_content content;
+    ff_error error;
+    void *data;
+    ff_walker_content(&content, grid);
+    FF_ASSERT_OK(ff_pack_image(&content, &data, size, &error), error);
+    ff_pack_content_free(&content);
+    return data;
+}
+
+#endif
