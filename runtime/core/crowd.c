@@ -13,6 +13,7 @@
 #define STEP_MAX 0.25      /* s: longer than that, people walk past each other unseen */
 #define PLANE_MAX 1e6      /* m: millimetres must survive in a double many times over */
 #define TOLERANCE_MIN 0.05 /* m */
+#define STILL 0.2          /* m/s: who is slower and means to stand, stands */
 #define ARRAY_ALIGN 64
 
 ff_crowd_def ff_crowd_def_default(void)
@@ -262,6 +263,7 @@ ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_s
     const ff_mind *mind = &crowd->minds[agent.slot];
     const ff_traits *traits = &crowd->traits[agent.slot];
     const ff_gait *gait = ff_crowd_gait(crowd, agent.slot);
+    bool still = ff_length2(crowd->velocity[agent.slot]) <= STILL;
     bool near = ff_length2(ff_sub2(traits->goal, body->position)) <= traits->goal_tolerance;
     *out =
         (ff_agent_state){.position = body->position,
@@ -271,7 +273,7 @@ ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_s
                          .command = mind->command,
                          .goal = traits->goal,
                          .radius = traits->radius,
-                         .reached = mind->standing && near,
+                         .reached = mind->standing && near && still,
                          .planted = {(uint8_t)ff_gait_planted(gait, 0), (uint8_t)ff_gait_planted(gait, 1)}};
     return FF_OK;
 }

@@ -51,12 +51,13 @@ static void snapshot(ff_crowd *crowd)
         const ff_body *body = &crowd->bodies[slot];
         const ff_mind *mind = &crowd->minds[slot];
         ff_vec2 velocity = ff_body_velocity(body);
-        crowd->unsorted[count++] = (ff_seen){body->position,
-                                             velocity,
-                                             ff_scale2(ff_add2(mind->command, velocity), 0.5),
-                                             crowd->traits[slot].radius,
-                                             slot,
-                                             mind->standing};
+        crowd->unsorted[count++] = (ff_seen){.position = body->position,
+                                             .velocity = velocity,
+                                             .reference = ff_scale2(ff_add2(mind->command, velocity), 0.5),
+                                             .preferred = mind->preferred,
+                                             .radius = crowd->traits[slot].radius,
+                                             .slot = slot,
+                                             .standing = mind->standing};
     }
     ff_grid_fill(&crowd->grid, crowd->unsorted, count);
 }

@@ -19,6 +19,7 @@
 #define OVERLAP_TIME 0.1   /* s, algorithms C.7: shorter steps must not kick harder */
 #define STILL 0.05         /* m/s: a command below it has no direction */
 #define STAND_SPEED 0.6    /* m/s, at which one who stands steps aside at most */
+#define STAND_CHANGE 3.0   /* m/s^2 */
 #define STAND_FIRM 0.25    /* m/s, what he does not budge for */
 
 typedef struct nav_view {
@@ -169,16 +170,19 @@ void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *n
         .world = world, .me = &world->grid->seen[self], .neighbours = neighbours, .neighbour_count = count};
     view.wall_count = ff_walls_near(world->walls, view.me->position, WALL_REACH, view.walls);
     ff_vec2 preferred = ff_nav_preferred(world, self, neighbours, count, traits, mind);
+    mind->preferred = mind->standing ? ff_nav_make_way(world, self, neighbours, count) : preferred;
     preferred = ff_nav_keep_right(world, self, traits, preferred, mind);
 
-    ff_vec2 wish = ff_v2(0.0, 0.0);
+    ff_vec2 wish = mind->preferred;
     if (!mind->standing) wish = adapt_to_density(&view, preferred, adapt_by_forces(&view, preferred));
     constraints lines;
     gather(&view, ff_fwd2(heading), preferred, mind, &lines);
     if (mind->standing) {
         ff_circle aside = {ff_v2(0.0, 0.0), STAND_SPEED};
         ff_vec2 v = solve(&lines, aside, aside, wish);
-        mind->command = ff_length2(v) < STAND_FIRM ? ff_v2(0.0, 0.0) : v;
+        if (ff_length2(v) < STAND_FIRM && ff_dot2(wish, wish) == 0.0) v = ff_v2(0.0, 0.0);
+        ff_vec2 change = ff_shorten2(ff_sub2(v, mind->command), STAND_CHANGE * world->step);
+        mind->command = ff_add2(mind->command, change);
         return;
     }
     ff_circle near = {mind->command, COMMAND_CHANGE * world->step};

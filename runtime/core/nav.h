@@ -20,6 +20,7 @@ typedef struct ff_traits {
 /* What navigation remembers of one agent. Plain, without padding: it is hashed as bytes. */
 typedef struct ff_mind {
     ff_vec2 command;    /* m/s, what was asked for last */
+    ff_vec2 preferred;  /* m/s, before any regard for others; of one who stands: to where he makes way */
     double facing;      /* rad, where the body shall face */
     double bias;        /* 0..1, how far the side preference has been eased in */
     double sharp_side;  /* turn in progress: +1 left, -1 right, 0 none */

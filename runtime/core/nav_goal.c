@@ -3,6 +3,7 @@
 #include "runtime/core/nav_time.h"
 
 #define SLOW_DOWN 0.8 /* m before the goal */
+#define SLOW 0.25     /* m/s: who has braked to that within the tolerance stands */
 #define CREEP 0.12    /* least part of the preferred speed: above the idle threshold of the body */
 #define LEAVE 0.3     /* m beyond the tolerance until one who was pushed away walks back */
 #define PROGRESS 0.25 /* m nearer to the goal: the least that counts */
@@ -13,6 +14,10 @@
 #define DETOUR_FIRST 0.8 /* rad */
 #define DETOUR_MORE 0.4  /* rad more with every second try */
 #define DETOUR_MAX 2.0   /* rad */
+
+#define WAY_GAP 0.5    /* m between two people, from which one who stands makes way */
+#define WAY_SPEED 0.5  /* m/s */
+#define WAY_LEAST 0.05 /* m/s: who wants less than that needs no way */
 
 #define MEET_TIME 5.0   /* s */
 #define MEET_WIDTH 0.6  /* m, by which a pass is called a meeting although nobody would touch */
@@ -55,11 +60,11 @@ static void give_way_to_fate(bool taken, double distance, const ff_nav_world *wo
     ++mind->detours;
 }
 
-static void stand_or_go(double distance, double step, const ff_traits *traits, ff_mind *mind)
+static void stand_or_go(double distance, double speed, double step, const ff_traits *traits, ff_mind *mind)
 {
     bool inside = distance <= traits->goal_tolerance;
     if (!mind->standing) {
-        if (inside) mind->standing = 1, mind->stalled = 0.0;
+        if (inside && speed <= SLOW) mind->standing = 1, mind->stalled = 0.0;
         return;
     }
     if (inside) {
@@ -79,8 +84,9 @@ ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neig
 {
     ff_vec2 to_goal = ff_sub2(traits->goal, world->grid->seen[self].position);
     double distance = ff_length2(to_goal);
-    stand_or_go(distance, world->step, traits, mind);
-    if (mind->standing) return ff_v2(0.0, 0.0);
+    stand_or_go(distance, ff_length2(world->grid->seen[self].velocity), world->step, traits, mind);
+    /* Within the tolerance people brake evenly (as fast as the command may change) and then stand. */
+    if (mind->standing || distance <= traits->goal_tolerance) return ff_v2(0.0, 0.0);
 
     if (mind->detour_left > 0.0) {
         mind->detour_left -= world->step;
@@ -121,10 +127,30 @@ static bool meets_somebody(const ff_grid *grid, uint32_t self, ff_vec2 preferred
 ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_traits *traits,
                           ff_vec2 preferred, ff_mind *mind)
 {
-    bool meets = !mind->standing && meets_somebody(world->grid, self, preferred);
+    bool goes = ff_dot2(preferred, preferred) > 0.0,
+         meets = goes && meets_somebody(world->grid, self, preferred);
     mind->bias = ff_clamp(mind->bias + (meets ? 1.0 : -1.0) * world->step / EASE, 0.0, 1.0);
-    if (mind->standing || mind->bias <= 0.0) return preferred;
+    if (!goes || mind->bias <= 0.0) return preferred;
     double distance = ff_length2(ff_sub2(traits->goal, world->grid->seen[self].position));
     double fade = ff_clamp((distance - FADE_FROM) / FADE_LENGTH, 0.0, 1.0);
     return turned(preferred, -world->keep_right * mind->bias * fade);
+}
+
+ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
+                        uint32_t count)
+{
+    const ff_seen *me = &world->grid->seen[self];
+    ff_vec2 sum = ff_v2(0.0, 0.0);
+    if (ff_length2(me->velocity) > WAY_SPEED) return sum; /* still coming to his stand */
+    for (uint32_t i = 0; i < count; ++i) {
+        const ff_seen *other = &world->grid->seen[neighbours[i].index];
+        double wish = ff_length2(other->preferred), reach = me->radius + other->radius;
+        if (wish < WAY_LEAST) continue;
+        ff_vec2 way = ff_scale2(other->preferred, 1.0 / wish), x = ff_sub2(me->position, other->position);
+        double gap = ff_length2(x) - reach, across = ff_det2(way, x);
+        if (gap > WAY_GAP || ff_dot2(way, x) < 0.0 || fabs(across) > reach + 2.0 * FF_PADDING) continue;
+        double side = across >= 0.0 ? 1.0 : -1.0;
+        sum = ff_madd2(sum, ff_left2(way), side * (1.0 - ff_max(gap, 0.0) / WAY_GAP));
+    }
+    return ff_scale2(ff_unit2(sum), WAY_SPEED);
 }

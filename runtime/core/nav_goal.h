@@ -13,4 +13,9 @@ ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neig
 ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_traits *traits,
                           ff_vec2 preferred, ff_mind *mind);
 
+/* Where one who stands steps to let those through who want to walk past: across their way, to the side where he
+ * already is. Zero when he is in nobody's way. */
+ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
+                        uint32_t count);
+
 #endif
