@@ -78,7 +78,7 @@ FORCE:
 $(B)/obj/%.c.o: %.c $(B)/flags.txt
 	mkdir -p $(@D)
 	echo "compile $<"
-	$(CC) $(CFLAGS_ALL) -c -o $@ $<
+	$(CC) $(CFLAGS_ALL) $(CFLAGS_HERE) -c -o $@ $<
 $(B)/obj/%.cpp.o: %.cpp $(B)/flags.txt
 	mkdir -p $(@D)
 	echo "compile $<"
@@ -115,7 +115,7 @@ $(B)/footfall-pack: $(call obj,$(pack_src)) $(room_libs)
 $(B)/footfall-crowd: $(call obj,$(crowd_src)) $(room_libs)
 	$(link) $(libs)
 # An example shows what a user of the library needs, so it gets the library alone.
-$(call obj,$(example_src)): CFLAGS += -Iruntime
+$(call obj,$(example_src)): CFLAGS_HERE := -Iruntime
 $(B)/examples/%: $(B)/obj/runtime/examples/%.c.o $(libfootfall)
 	mkdir -p $(@D)
 	echo "link $@"

@@ -97,8 +97,8 @@ static uint32_t find_mode(const ff_pack_action *r, const ff_step_span *span)
     if (span->mode >= 0) return (uint32_t)span->mode;
     if (r->flight[1] - r->flight[0] >= (float)SHORTEST_FLIGHT || r->speed > (float)RUN_SPEED)
         return FF_MODE_RUN;
-    return hypot((double)r->step_length, (double)r->step_width) < MEDIAN_STEP ? FF_MODE_WALK_SHORT
-                                                                              : FF_MODE_WALK_LONG;
+    return ff_length2(ff_v2((double)r->step_length, (double)r->step_width)) < MEDIAN_STEP ? FF_MODE_WALK_SHORT
+                                                                                          : FF_MODE_WALK_LONG;
 }
 
 /* Times, feet and the flight. */

@@ -68,7 +68,7 @@ bool ff_step_acceptable(const ff_motion *motion, const ff_plants *plants, const 
         return say(reason, size, "too short (%.2f s): both feet land almost at once", seconds);
     if (seconds > (run ? 0.7 : (r->mode == FF_MODE_JUMP ? 3.0 : 1.5)))
         return say(reason, size, "too long for one step (%.2f s)", seconds);
-    double swung = hypot((double)r->swing_displacement[0], (double)r->swing_displacement[1]);
+    double swung = ff_length2(ff_v2((double)r->swing_displacement[0], (double)r->swing_displacement[1]));
     if (swung > FARTHEST_SWING) return say(reason, size, "the swing foot moves too far (%.2f m)", swung);
     double up = swing->ball_y - ff_dot2(plants->floor.slope, swing->ball) -
                 plants->shape[swing->foot].ball_height -

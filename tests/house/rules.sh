@@ -28,6 +28,29 @@ none() {
     return 1
 }
 
+# code FILES: "file:line:text" without comments, strings and empty lines
+code() {
+    awk 'FNR == 1 { comment = 0 }
+        {
+            line = $0
+            gsub(/"([^"\\]|\\.)*"/, "\"\"", line)
+            if (comment) { if (sub(/^.*\*\//, "", line)) comment = 0; else next }
+            gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, "", line)
+            sub(/\/\/.*$/, "", line)
+            if (sub(/\/\*.*$/, "", line)) comment = 1
+            if (line ~ /[^ ]/) print FILENAME ":" FNR ":" line
+        }' "$@"
+}
+
+# no_code PATTERN FILES: the same as none, but comments and strings may say it
+no_code() {
+    pattern=$1
+    shift
+    code "$@" | grep -E -- "^[^:]*:[0-9]*:.*$pattern" >"$work/found" || return 0
+    cat "$work/found"
+    return 1
+}
+
 std='<(assert|ctype|errno|float|inttypes|limits|math|setjmp|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string|time)\.h>'
 posix='<(dirent|fcntl|pthread|sched|strings|unistd|sys/[a-z]+)\.h>'
 simd='<(emmintrin|immintrin)\.h>'
@@ -61,7 +84,8 @@ every_cpp_file_is_an_adapter_behind_a_c_header() {
     result=0
     for file in $(find $rooms -name '*.cpp'); do
         grep -qE '#include <(opencv2/|tiny_gltf)' "$file" || { echo "$file adapts no library" && result=1; }
-        [ -f "${file%.cpp}.h" ] || { echo "$file has no header ${file%.cpp}.h" && result=1; }
+        # hull_opencv.cpp may stand behind hull.h
+        [ -f "${file%.cpp}.h" ] || [ -f "${file%_*.cpp}.h" ] || { echo "$file has no header" && result=1; }
         grep -q 'catch (' "$file" || { echo "$file catches nothing: exceptions would escape" && result=1; }
     done
     return "$result"
@@ -74,20 +98,20 @@ no_path_of_one_machine_is_written_down() {
     none '(/work/|/home/|/root/)' $(sources $rooms) Makefile scripts/* README.md mocap/*.md preprocess/*.md runtime/*.md scripts/*.md
 }
 libraries_never_end_the_process() {
-    none '(^|[^_[:alnum:]])(exit|_exit|abort|quick_exit) *\(' $(sources mocap preprocess runtime | grep -v '/main\.c$')
+    no_code '[^_[:alnum:]](exit|_exit|abort|quick_exit) *\(' $(sources mocap preprocess runtime | grep -v '/main\.c$')
 }
 what_feeds_packs_and_crowds_uses_no_libm() {
     # sqrt, fabs, floor, ldexp and their like are exact everywhere; these are not (maths.h).
-    none '(^|[^_[:alnum:]])(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|log10|pow|hypot|cbrt|sinh|cosh|tanh|sincos)f? *\(' \
+    no_code '[^_[:alnum:]](sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|log10|pow|hypot|cbrt|sinh|cosh|tanh|sincos)f? *\(' \
         $(sources runtime/core preprocess)
 }
 nobody_reads_the_clock_or_a_random_device_into_a_result() {
-    none '(^|[^_[:alnum:]])(rand|srand|random|drand48|time|gettimeofday|clock) *\(' $(sources mocap preprocess runtime)
+    no_code '[^_[:alnum:]](rand|srand|random|drand48|time|gettimeofday|clock) *\(' $(sources mocap preprocess runtime)
 }
 
 files_stay_short() {
     result=0
-    for file in $(sources $rooms); do
+    for file in $(sources $rooms | grep -v '_data\.c$'); do # tables of measured numbers are as long as they are
         lines=$(wc -l <"$file")
         [ "$lines" -le 700 ] || { echo "$file has $lines lines" && result=1; }
     done
