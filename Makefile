@@ -61,8 +61,9 @@ example_src    := $(wildcard runtime/examples/*.c)
 test_src       := $(wildcard tests/*/test_*.c)
 bench_src      := $(wildcard tests/bench/bench_*.c)
 fuzz_src       := $(wildcard tests/fuzz/fuzz_*.c)
+e2e_src        := $(wildcard tests/e2e/*.c)
 every_src      := $(core_src) $(tool_src) $(export_src) $(crowd_src) $(mocap_src) $(preprocess_src) $(pack_src) \
-                  $(example_src) $(test_src) $(bench_src) $(fuzz_src)
+                  $(example_src) $(test_src) $(e2e_src) $(bench_src) $(fuzz_src)
 obj = $(patsubst %,$(B)/obj/%.o,$(1))
 
 # ----------------------------------------------------------------------------------------------- compile, link
@@ -125,17 +126,18 @@ $(B)/examples/%: $(B)/obj/runtime/examples/%.c.o $(libfootfall)
 test_bin  := $(patsubst %.c,$(B)/%,$(test_src))
 bench_bin := $(patsubst %.c,$(B)/%,$(bench_src))
 fuzz_bin  := $(patsubst %.c,$(B)/%,$(fuzz_src))
+e2e_bin   := $(patsubst %.c,$(B)/%,$(e2e_src))
 e2e       := $(filter-out %/lib.sh,$(wildcard tests/e2e/*.sh))
 house     := $(wildcard tests/house/*.sh)
 $(test_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
 	$(link) -lcmocka $(libs)
-$(bench_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
+$(bench_bin) $(e2e_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
 	$(link) $(libs)
 $(fuzz_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
 	$(link) $(libs) -fsanitize=fuzzer
 
 .PHONY: test unit e2e house soak bench test-programs fuzz-programs bench-programs
-test-programs: all $(test_bin)
+test-programs: all $(test_bin) $(e2e_bin)
 fuzz-programs: $(fuzz_bin)
 bench-programs: $(bench_bin)
 

@@ -1,4 +1,14 @@
-int main(void)
+/* footfall-pack - makes motion packs from clips, and shows what is in clips and packs. */
+#include "preprocess/plants_command.h"
+#include "runtime/tool/command_line.h"
+
+static const ff_subcommand commands[] = {
+    {"plants", "list the foot plants of clips", ff_plants_command},
+    {0},
+};
+
+int main(int argc, char **argv)
 {
-    return 0;
+    return ff_command_dispatch("footfall-pack", "make motion packs from motion capture", commands, argc,
+                               argv);
 }
