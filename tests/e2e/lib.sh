@@ -11,17 +11,17 @@ crowd=$FF_BUILD/footfall-crowd
 
 # test_that "sentence" COMMAND...: the command must succeed; what it prints is shown when it does not.
 test_that() {
-    name=$1
+    sentence=$1
     shift
-    echo "[ RUN      ] $name"
+    echo "[ RUN      ] $sentence"
     if "$@" >"$work/test.log" 2>&1; then
-        echo "[       OK ] $name"
+        echo "[       OK ] $sentence"
         passed=$((passed + 1))
     else
         sed 's/^/    /' "$work/test.log"
-        echo "[  FAILED  ] $name"
+        echo "[  FAILED  ] $sentence"
         failed=$((failed + 1)) failed_names="$failed_names
-[  FAILED  ] $name"
+[  FAILED  ] $sentence"
     fi
 }
 
