@@ -77,13 +77,26 @@ static int common_ancestor(const ff_clip *clip, int a, int b)
     return a == b ? a : -1;
 }
 
-/* The child of ancestor on the way down to joint; -1 when joint is not below it. */
+/* Never turned where it is looked at: a bone without degrees of freedom, there only to bridge a distance. */
+static bool is_rigid(const ff_clip *clip, int joint)
+{
+    int frame = ff_clip_typical_frame(clip), last = clip->frame_count - 1;
+    for (int i = 0; i < 3; ++i) {
+        int at = frame + (last - frame) * i / 2;
+        ff_quat q = clip->rotations[(size_t)at * (size_t)clip->joint_count + (size_t)joint];
+        if (q.x != 0.0 || q.y != 0.0 || q.z != 0.0) return false;
+    }
+    return true;
+}
+
+/* The first joint below ancestor on the way down to joint, one that turns if any does; -1 when joint is not below it. */
 static int first_below(const ff_clip *clip, int joint, int ancestor)
 {
     if (joint < 0 || ancestor < 0 || joint == ancestor || !is_below(clip, joint, ancestor)) return -1;
-    while (parent_of(clip, joint) != ancestor)
-        joint = parent_of(clip, joint);
-    return joint;
+    int turning = -1;
+    for (; parent_of(clip, joint) != ancestor; joint = parent_of(clip, joint))
+        if (!is_rigid(clip, parent_of(clip, joint))) turning = parent_of(clip, joint);
+    return turning >= 0 ? turning : joint;
 }
 
 static void complete_trunk(ff_clip *clip)
