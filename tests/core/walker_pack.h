@@ -19,6 +19,8 @@ typedef struct ff_walker_grid {
 
 static const ff_walker_grid ff_walker_grid_full = {
     {5, 3, 3}, {{-0.8, 0.0, 0.6, 1.2, 1.8}, {-0.5, 0.0, 0.5}, {-1.4, 0.0, 1.4}}, 60.0};
+static const ff_walker_grid ff_walker_grid_small = {
+    {3, 3, 3}, {{-0.6, 0.0, 1.2}, {-0.5, 0.0, 0.5}, {-1.4, 0.0, 1.4}}, 15.0};
 static const ff_walker_grid ff_walker_grid_tiny = {{2, 1, 1}, {{0.0, 1.2}, {0.0}, {0.0}}, 8.0};
 
 #define FF_WALKER_BALL_REST 0.02
@@ -50,7 +52,7 @@ static inline void ff_walker_skeleton(ff_pack_content *content)
     ff_pack_joint *joint = ff_walker_push(&content->joints, FF_JOINT_COUNT, sizeof *joint);
     ff_pack_point *point = ff_walker_push(&content->points, FF_POINT_COUNT, sizeof *point);
     for (int j = 0; j < FF_JOINT_COUNT; ++j) {
-        char name[16];
+        char name[24];
         snprintf(name, sizeof name, "joint%d", j);
         joint[j] = (ff_pack_joint){ff_joint_parents[j], ff_pack_add_string(content, name), {0}, 0.05f};
         for (int i = 0; i < 3; ++i)
@@ -216,6 +218,30 @@ static inline void ff_walker_cell(ff_pack_content *content, const ff_walker_grid
     }
 }
 
+/* A clip of two frames with a plant and an action, so that no section is empty. */
+static inline void ff_walker_clip(ff_pack_content *content)
+{
+    uint32_t name = ff_pack_add_string(content, "clip");
+    ff_pack_stream *stream = ff_walker_push(&content->streams, 1, sizeof *stream);
+    *stream = (ff_pack_stream){(uint32_t)content->frames.count, 2, 60.0f, 0};
+    ff_walker_push(&content->frames, 2, sizeof(ff_pack_frame));
+    int16_t(*rotation)[4] = ff_walker_push(&content->rotations, 2 * FF_JOINT_COUNT, sizeof *rotation);
+    for (int j = 0; j < 2 * FF_JOINT_COUNT; ++j)
+        rotation[j][3] = 32767;
+    ff_pack_clip *clip = ff_walker_push(&content->clips, 1, sizeof *clip);
+    *clip = (ff_pack_clip){.name = name,
+                           .stream = (uint32_t)content->streams.count - 1,
+                           .plant_count = 1,
+                           .action_count = 1,
+                           .source_rate = 120.0f};
+    ff_pack_plant *plant = ff_walker_push(&content->plants, 1, sizeof *plant);
+    *plant = (ff_pack_plant){.end = 0.5f, .flat_start = 0.1f, .flat_end = 0.4f, .confidence = 1.0f};
+    ff_pack_action *action = ff_walker_push(&content->actions, 1, sizeof *action);
+    *action = (ff_pack_action){
+        .swing = 1, .t_end = 0.5f, .duration = 0.5f, .collider_samples = 1, .swing_plant = UINT32_MAX};
+    ff_walker_push(&content->colliders, FF_COLLIDER_COUNT, sizeof(ff_pack_collider));
+}
+
 static inline void ff_walker_content(ff_pack_content *content, const ff_walker_grid *grid)
 {
     memset(content, 0, sizeof *content);
@@ -226,12 +252,16 @@ static inline void ff_walker_content(ff_pack_content *content, const ff_walker_g
                 ff_walker_example(content, grid,
                                   (ff_rates){grid->axis[0][i], grid->axis[1][j], grid->axis[2][k]}, false);
     ff_walker_example(content, grid, (ff_rates){0.0, 0.0, 0.0}, true);
+    ff_walker_clip(content);
     for (int i = 0; i < (grid->count[0] > 1 ? grid->count[0] - 1 : 1); ++i)
         for (int j = 0; j < (grid->count[1] > 1 ? grid->count[1] - 1 : 1); ++j)
             for (int k = 0; k < (grid->count[2] > 1 ? grid->count[2] - 1 : 1); ++k)
                 ff_walker_cell(content, grid, (const int[3]){i, j, k});
     static const ff_pack_point2 hull[4] = {{-0.8f, -0.5f}, {1.8f, -0.5f}, {1.8f, 0.5f}, {-0.8f, 0.5f}};
     memcpy(ff_walker_push(&content->hull, 4, sizeof *hull), hull, sizeof hull);
+    ff_walker_push(&content->tracks, 2 * 2, sizeof(ff_pack_track));
+    ff_error error;
+    FF_ASSERT_OK(ff_pack_set_meta(content, "{}", &error), error);
 }
 
 /* The pack as bytes (free() them) of a 64-byte aligned block. */

@@ -1,0 +1,41 @@
+/* pack_use.h - do with an opened pack what a crowd does: whatever the loader lets through must be safe to use. */
+#ifndef FF_TEST_PACK_USE_H
+#define FF_TEST_PACK_USE_H
+
+#include "runtime/core/base/random.h"
+#include "runtime/core/joints.h"
+#include "runtime/core/synth_state.h"
+
+/* One agent for so many steps at rates drawn from seed. Returns whether all poses were finite. */
+static inline bool ff_pack_use(const ff_pack *pack, int steps, uint64_t seed)
+{
+    ff_blend_space *space;
+    if (ff_blend_space_create(pack, &space, NULL) != FF_OK) return true;
+    ff_random random = {seed, 0, 0};
+    ff_gait gait;
+    ff_vec2 position = {0.0, 0.0};
+    double heading = 0.0;
+    bool finite = true;
+    ff_rates rates = {0.0, 0.0, 0.0};
+    ff_gait_init(space, &gait, position, heading, seed);
+    for (int i = 0; i < steps; ++i) {
+        if (i % 8 == 0)
+            rates = ff_blend_clamp(space, (ff_rates){ff_random_range(&random, -1.0, 2.0),
+                                                     ff_random_range(&random, -0.7, 0.7),
+                                                     ff_random_range(&random, -2.0, 2.0)});
+        position = ff_madd2(position, ff_from_frame2(ff_fwd2(heading), ff_v2(rates.forward, rates.left)),
+                            1.0 / 30.0);
+        heading += rates.turn / 30.0;
+        ff_gait_step(space, &gait, position, heading, rates, 1.0 / 30.0);
+        ff_vec3 hips;
+        ff_quat rotations[FF_JOINT_COUNT];
+        ff_gait_pose(space, &gait, position, heading, &hips, rotations);
+        finite = finite && isfinite(hips.x + hips.y + hips.z);
+        for (int j = 0; j < FF_JOINT_COUNT; ++j)
+            finite = finite && fabs(ff_quat_dot(rotations[j], rotations[j]) - 1.0) < 1e-6;
+    }
+    ff_blend_space_destroy(space);
+    return finite;
+}
+
+#endif

@@ -1,0 +1,130 @@
+/* Blending in the space of rates: exact, smooth, and nearest where it cannot be exact. */
+#include "runtime/core/base/random.h"
+#include "tests/core/walker_space.h"
+
+static int set_up(void **state)
+{
+    static ff_walker_space walker;
+    walker = ff_walker_space_make(&ff_walker_grid_full);
+    *state = &walker;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    ff_walker_space_free(*state);
+    return 0;
+}
+
+static ff_rates random_rates(ff_random *random, double beyond)
+{
+    return (ff_rates){ff_random_range(random, -0.8 * beyond, 1.8 * beyond),
+                      ff_random_range(random, -0.5 * beyond, 0.5 * beyond),
+                      ff_random_range(random, -1.4 * beyond, 1.4 * beyond)};
+}
+
+/* What the root of a blended cycle does, from first principles: every example moves by its rates for its period, and
+ * the blended cycle moves by the mean of that in the mean of their times. */
+static ff_rates rates_of_cycle(const ff_blend_space *space, const ff_blend *blend)
+{
+    double time = 0.0;
+    ff_rates moved = {0.0, 0.0, 0.0};
+    for (int i = 0; i < FF_BLEND_MAX; ++i) {
+        if (blend->vertex[i] < 0) continue;
+        const ff_blend_vertex *vertex = &space->vertices[blend->vertex[i]];
+        double share = blend->weight[i] * vertex->period;
+        time += share;
+        moved.forward += share * vertex->rates.forward;
+        moved.left += share * vertex->rates.left;
+        moved.turn += share * vertex->rates.turn;
+    }
+    FF_ASSERT_NEAR(time, blend->period, 1e-12);
+    return (ff_rates){moved.forward / time, moved.left / time, moved.turn / time};
+}
+
+static void blended_rates_are_exact_in_speed_and_turn(void **state)
+{
+    const ff_walker_space *walker = *state;
+    ff_random random = {1, 2, 0};
+    for (int i = 0; i < 5000; ++i) {
+        ff_rates target = random_rates(&random, 1.0);
+        ff_blend blend;
+        ff_blend_find(walker->space, target, &blend);
+        double sum = 0.0;
+        for (int k = 0; k < FF_BLEND_MAX; ++k) {
+            assert_true(blend.weight[k] >= 0.0);
+            sum += blend.weight[k];
+        }
+        FF_ASSERT_NEAR(sum, 1.0, 1e-12);
+        ff_rates got = rates_of_cycle(walker->space, &blend);
+        FF_ASSERT_NEAR(got.forward, target.forward, 1e-9);
+        FF_ASSERT_NEAR(got.left, target.left, 1e-9);
+        FF_ASSERT_NEAR(got.turn, target.turn, 1e-9);
+    }
+}
+
+static void targets_inside_are_kept_and_others_go_to_the_nearest_point(void **state)
+{
+    const ff_walker_space *walker = *state;
+    ff_random random = {3, 4, 0};
+    for (int i = 0; i < 5000; ++i) {
+        ff_rates target = random_rates(&random, 2.0), got = ff_blend_clamp(walker->space, target);
+        /* The examples fill a box, whose nearest point is known axis by axis. */
+        FF_ASSERT_NEAR(got.forward, ff_clamp(target.forward, -0.8, 1.8), 1e-6);
+        FF_ASSERT_NEAR(got.left, ff_clamp(target.left, -0.5, 0.5), 1e-6);
+        FF_ASSERT_NEAR(got.turn, ff_clamp(target.turn, -1.4, 1.4), 1e-6);
+    }
+    ff_rates still = ff_blend_clamp(walker->space, (ff_rates){0.0, 0.0, 0.0});
+    assert_true(still.forward == 0.0 && still.left == 0.0 && still.turn == 0.0);
+}
+
+static void weights_change_as_smoothly_as_rates_do(void **state)
+{
+    const ff_walker_space *walker = *state;
+    ff_random random = {5, 6, 0};
+    double before[64] = {0}, worst = 0.0;
+    ff_rates rates = {0.3, 0.1, 0.2}, speed = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 20000; ++i) {
+        speed.forward += ff_random_range(&random, -1e-4, 1e-4);
+        speed.left += ff_random_range(&random, -1e-4, 1e-4);
+        speed.turn += ff_random_range(&random, -1e-4, 1e-4);
+        double step = 1e-3 / ff_max(1e-3, fabs(speed.forward) + fabs(speed.left) + fabs(speed.turn));
+        speed = (ff_rates){speed.forward * step, speed.left * step, speed.turn * step};
+        rates = (ff_rates){rates.forward + speed.forward, rates.left + speed.left, rates.turn + speed.turn};
+        rates = ff_blend_clamp(walker->space, rates);
+        ff_blend blend;
+        ff_blend_find(walker->space, rates, &blend);
+        double now[64] = {0};
+        for (int k = 0; k < FF_BLEND_MAX; ++k)
+            if (blend.vertex[k] >= 0) now[blend.vertex[k]] += blend.weight[k];
+        for (int v = 0; v < 64 && i > 0; ++v)
+            worst = ff_max(worst, fabs(now[v] - before[v]));
+        memcpy(before, now, sizeof now);
+    }
+    FF_ASSERT_BELOW(
+        worst, 1e-3 * 8.0); /* the nearest neighbours on an axis are 0.5 apart: slope 2, with periods 3 */
+}
+
+static void a_pack_of_one_line_of_walks_is_projected_onto(void **state)
+{
+    (void)state;
+    ff_walker_space line = ff_walker_space_make(&ff_walker_grid_tiny);
+    ff_rates got = ff_blend_clamp(line.space, (ff_rates){0.7, 0.4, 1.0});
+    FF_ASSERT_NEAR(got.forward, 0.7, 1e-6);
+    FF_ASSERT_NEAR(got.left, 0.0, 1e-6);
+    FF_ASSERT_NEAR(got.turn, 0.0, 1e-6);
+    got = ff_blend_clamp(line.space, (ff_rates){5.0, 0.0, 0.0});
+    FF_ASSERT_NEAR(got.forward, 1.2, 1e-6);
+    ff_walker_space_free(&line);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blended_rates_are_exact_in_speed_and_turn),
+        cmocka_unit_test(targets_inside_are_kept_and_others_go_to_the_nearest_point),
+        cmocka_unit_test(weights_change_as_smoothly_as_rates_do),
+        cmocka_unit_test(a_pack_of_one_line_of_walks_is_projected_onto),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
