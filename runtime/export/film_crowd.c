@@ -1,0 +1,118 @@
+#include "runtime/export/film_crowd.h"
+
+#define ELEVATION (32.0 * FF_DEG)
+#define VIEW_ANGLE (30.0 * FF_DEG)
+#define WALL_HEIGHT 1.0 /* m, low enough to look over */
+#define HEAD_ROOM 1.8
+
+static void include(ff_vec3 *low, ff_vec3 *high, ff_vec2 p)
+{
+    const double reach = 0.5; /* of a stride beyond the root */
+    *low = ff_v3(ff_min(low->x, p.b - reach), 0.0, ff_min(low->z, p.a - reach));
+    *high = ff_v3(ff_max(high->x, p.b + reach), HEAD_ROOM, ff_max(high->z, p.a + reach));
+}
+
+static void bounds(const ff_recording *recording, ff_vec3 *low, ff_vec3 *high)
+{
+    *low = ff_v3(1e9, 0.0, 1e9);
+    *high = ff_v3(-1e9, HEAD_ROOM, -1e9);
+    for (uint32_t k = 0; k < recording->step_count; k += 5)
+        for (uint32_t i = 0; i < recording->agent_count; ++i)
+            include(low, high, ff_recording_track(recording, k, i)->position);
+}
+
+/* Whether every corner of the box is on the picture; the box of what is seen goes to seen[4] (left, top, right,
+ * bottom). */
+static bool sees(const ff_camera *camera, ff_vec3 low, ff_vec3 high, int width, int height, double seen[4])
+{
+    seen[0] = seen[1] = 1e9;
+    seen[2] = seen[3] = -1e9;
+    for (unsigned c = 0; c < 8; ++c) {
+        ff_vec3 corner = ff_v3(c & 1u ? high.x : low.x, c & 2u ? high.y : low.y, c & 4u ? high.z : low.z);
+        double depth;
+        ff_pixel p = ff_camera_project(camera, corner, &depth);
+        if (depth < 1.0) return false;
+        seen[0] = ff_min(seen[0], p.x);
+        seen[1] = ff_min(seen[1], p.y);
+        seen[2] = ff_max(seen[2], p.x);
+        seen[3] = ff_max(seen[3], p.y);
+    }
+    return seen[2] - seen[0] < 0.94 * width && seen[3] - seen[1] < 0.94 * height;
+}
+
+ff_camera ff_film_crowd_camera(const ff_scene *scene, const ff_recording *recording, int width, int height)
+{
+    (void)scene;
+    ff_vec3 low, high;
+    bounds(recording, &low, &high);
+    /* Pictures are wide: look along the shorter side of where people go. */
+    bool along_x = high.z - low.z > high.x - low.x;
+    ff_vec3 back =
+        along_x ? ff_v3(-cos(ELEVATION), sin(ELEVATION), 0.0) : ff_v3(0.0, sin(ELEVATION), -cos(ELEVATION));
+    ff_vec3 middle = ff_lerp3(low, high, 0.5);
+    ff_camera camera = {0};
+    for (double distance = 4.0; distance < 5000.0; distance *= 1.03) {
+        double seen[4];
+        camera = ff_camera_look(ff_madd3(middle, back, distance), middle, ff_v3(0.0, 1.0, 0.0), true);
+        camera.scale = 0.5 * width / tan(0.5 * VIEW_ANGLE);
+        if (!sees(&camera, low, high, width, height, seen)) continue;
+        camera.centre_x = 0.5 * (width - seen[0] - seen[2]);
+        camera.centre_y = 0.5 * (height - seen[1] - seen[3]);
+        break;
+    }
+    return camera;
+}
+
+static void draw_ground(const ff_recording *recording, const ff_camera *camera, ff_raster *raster)
+{
+    static const ff_colour tile[2] = {{214, 213, 207}, {222, 221, 216}};
+    ff_vec3 low, high;
+    bounds(recording, &low, &high);
+    double x0 = floor(low.x) - 2.0, x1 = ceil(high.x) + 2.0, z0 = floor(low.z) - 2.0, z1 = ceil(high.z) + 2.0;
+    for (double z = z0; z < z1; z += 1.0)
+        for (double x = x0; x < x1; x += 1.0) {
+            ff_vec3 corners[4] = {ff_v3(x, 0.0, z), ff_v3(x + 1.0, 0.0, z), ff_v3(x + 1.0, 0.0, z + 1.0),
+                                  ff_v3(x, 0.0, z + 1.0)};
+            ff_raster_ground(raster, camera, corners, 4, tile[(int)fabs(x + z) % 2]);
+        }
+}
+
+/* A wall is a standing sheet, seen from both sides. */
+static void draw_walls(const ff_scene *scene, const ff_camera *camera, ff_raster *raster)
+{
+    static const uint32_t faces[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+    for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i) {
+        const ff_scene_wall *wall = &ff_scene_walls(scene)[i];
+        ff_vec3 feet[2] = {ff_ground(wall->p, 0.0), ff_ground(wall->q, 0.0)};
+        ff_shaded_vertex sheet[4];
+        for (int c = 0; c < 4; ++c) {
+            ff_vec3 at = feet[c == 1 || c == 2];
+            at.y = c >= 2 ? WALL_HEIGHT : 0.0;
+            sheet[c] = (ff_shaded_vertex){at, ff_scale3(camera->forward, -1.0), {176, 172, 164}};
+        }
+        ff_raster_mesh(raster, camera, sheet, faces, 4);
+    }
+}
+
+void ff_film_crowd_draw(ff_stage *stage, const ff_scene *scene, const ff_recording *recording, uint32_t pose,
+                        const ff_camera *camera, ff_raster *raster)
+{
+    ff_raster_clear(raster, (ff_colour){228, 232, 236}, (ff_colour){206, 205, 199});
+    draw_ground(recording, camera, raster);
+    uint32_t step = pose * recording->pose_stride;
+    for (int pass = 0; pass < 2; ++pass) { /* all shadows first: nobody's shadow falls on a body */
+        for (uint32_t i = 0; i < recording->agent_count; ++i) {
+            if (!ff_recording_track(recording, step, i)->present) continue;
+            ff_stage_pose(stage, recording, pose, i, NULL);
+            if (pass == 0) {
+                ff_stage_shadow(stage, raster, camera);
+                continue;
+            }
+            ff_look look = ff_look_of(scene, i);
+            ff_stage_dress(stage, &look);
+            ff_stage_draw(stage, raster, camera);
+        }
+        if (pass == 0) ff_raster_darken(raster);
+    }
+    draw_walls(scene, camera, raster);
+}

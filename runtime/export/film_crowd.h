@@ -1,0 +1,14 @@
+/* film_crowd.h - the crowd from an oblique camera. */
+#ifndef FF_FILM_CROWD_H
+#define FF_FILM_CROWD_H
+
+#include "runtime/export/stage.h"
+
+/* A camera that sees everybody at all times, on pictures of width x height pixels. */
+ff_camera ff_film_crowd_camera(const ff_scene *scene, const ff_recording *recording, int width, int height);
+
+/* Everybody present in a recorded pose, with ground, walls and shadows. */
+void ff_film_crowd_draw(ff_stage *stage, const ff_scene *scene, const ff_recording *recording, uint32_t pose,
+                        const ff_camera *camera, ff_raster *raster);
+
+#endif

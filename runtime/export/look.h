@@ -1,0 +1,16 @@
+/* look.h - what each agent wears, the same in every file, so that one can be followed from picture to picture. */
+#ifndef FF_LOOK_H
+#define FF_LOOK_H
+
+#include "runtime/export/body_shape.h"
+#include "runtime/export/picture.h"
+#include "runtime/export/scene.h"
+
+typedef struct ff_look {
+    ff_colour cover[FF_COVER_COUNT];
+} ff_look;
+
+/* Shirts tell groups apart (on the circle and in custom scenes: agents). */
+ff_look ff_look_of(const ff_scene *scene, uint32_t agent);
+
+#endif

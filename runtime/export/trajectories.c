@@ -1,0 +1,158 @@
+#include "runtime/export/trajectories.h"
+
+#include "runtime/core/base/fail.h"
+#include "runtime/export/look.h"
+#include "runtime/export/picture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define PICTURE_SIDE 1400.0 /* pixels, of the longer side of the map */
+#define MARGIN 60.0
+#define HEAD 110.0
+#define FOOT 80.0
+
+static const ff_colour paper = {252, 251, 248}, ink = {40, 42, 48}, faint = {232, 231, 226},
+                       grey = {130, 132, 138};
+
+/* World x runs to the left on the picture when z runs up, so that left and right are those seen from above. */
+typedef struct map {
+    ff_vec2 low, high; /* m, plane */
+    double scale;      /* pixels per m */
+} map;
+
+static ff_pixel to_pixel(const map *m, ff_vec2 p)
+{
+    return (ff_pixel){MARGIN + (m->high.b - p.b) * m->scale, HEAD + (m->high.a - p.a) * m->scale};
+}
+
+static void include(map *m, ff_vec2 p)
+{
+    m->low = ff_v2(ff_min(m->low.a, p.a), ff_min(m->low.b, p.b));
+    m->high = ff_v2(ff_max(m->high.a, p.a), ff_max(m->high.b, p.b));
+}
+
+static map fit(const ff_scene *scene, const ff_recording *recording)
+{
+    map m = {ff_v2(1e9, 1e9), ff_v2(-1e9, -1e9), 1.0};
+    for (uint32_t i = 0; i < ff_scene_agent_count(scene); ++i) {
+        include(&m, ff_scene_agents(scene)[i].goal);
+        for (uint32_t k = 0; k < recording->step_count; ++k)
+            include(&m, ff_recording_track(recording, k, i)->position);
+    }
+    for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i) {
+        include(&m, ff_scene_walls(scene)[i].p);
+        include(&m, ff_scene_walls(scene)[i].q);
+    }
+    m.low = ff_sub2(m.low, ff_v2(0.8, 0.8));
+    m.high = ff_add2(m.high, ff_v2(0.8, 0.8));
+    /* A corridor seen from above would be a ribbon: leave it room for title and scale bar. */
+    double lack = 0.35 * (m.high.a - m.low.a) - (m.high.b - m.low.b);
+    if (lack > 0.0) {
+        m.low.b -= 0.5 * lack;
+        m.high.b += 0.5 * lack;
+    }
+    m.scale = PICTURE_SIDE / ff_max(m.high.a - m.low.a, m.high.b - m.low.b);
+    return m;
+}
+
+static void draw_grid(ff_picture *picture, const map *m)
+{
+    double every = (m->high.a - m->low.a) > 40.0 ? 5.0 : 1.0;
+    for (double a = ceil(m->low.a / every) * every; a <= m->high.a; a += every)
+        ff_picture_line(picture, to_pixel(m, ff_v2(a, m->low.b)), to_pixel(m, ff_v2(a, m->high.b)), 1.0,
+                        faint);
+    for (double b = ceil(m->low.b / every) * every; b <= m->high.b; b += every)
+        ff_picture_line(picture, to_pixel(m, ff_v2(m->low.a, b)), to_pixel(m, ff_v2(m->high.a, b)), 1.0,
+                        faint);
+}
+
+static void draw_scale_bar(ff_picture *picture, const map *m, int width, int height)
+{
+    double metres = m->scale > 80.0 ? 1.0 : (m->scale > 30.0 ? 2.0 : 5.0);
+    double right = width - MARGIN, y = height - 0.5 * FOOT, left = right - metres * m->scale;
+    char text[32];
+    snprintf(text, sizeof text, "%.0f m", metres);
+    ff_picture_line(picture, (ff_pixel){left, y}, (ff_pixel){right, y}, 3.0, ink);
+    ff_picture_line(picture, (ff_pixel){left, y - 7}, (ff_pixel){left, y + 7}, 2.0, ink);
+    ff_picture_line(picture, (ff_pixel){right, y - 7}, (ff_pixel){right, y + 7}, 2.0, ink);
+    ff_picture_text(picture, (ff_pixel){0.5 * (left + right), y + 26}, 13, FF_ALIGN_MIDDLE, ink, text);
+}
+
+static void draw_legend(ff_picture *picture, int height)
+{
+    double y = height - 0.5 * FOOT, x = MARGIN;
+    ff_picture_disc(picture, (ff_pixel){x + 6, y}, 6, ink);
+    ff_picture_text(picture, (ff_pixel){x + 22, y + 6}, 13, FF_ALIGN_LEFT, ink, "start");
+    ff_picture_ring(picture, (ff_pixel){x + 106, y}, 7, 2, ink);
+    ff_picture_text(picture, (ff_pixel){x + 122, y + 6}, 13, FF_ALIGN_LEFT, ink, "goal");
+    ff_picture_disc(picture, (ff_pixel){x + 200, y}, 3, ink);
+    ff_picture_text(picture, (ff_pixel){x + 214, y + 6}, 13, FF_ALIGN_LEFT, ink, "every second");
+}
+
+static void draw_marks(ff_picture *picture, const map *m, const ff_scene *scene, uint32_t agent)
+{
+    ff_colour colour = ff_look_of(scene, agent).cover[FF_COVER_SHIRT];
+    const ff_scene_agent *who = &ff_scene_agents(scene)[agent];
+    double size = ff_clamp(0.16 * m->scale, 4.0, 11.0);
+    ff_picture_ring(picture, to_pixel(m, who->goal), size, 2.0, colour);
+    ff_picture_disc(picture, to_pixel(m, who->position), size, colour);
+}
+
+static void draw_path(ff_picture *picture, const map *m, const ff_scene *scene, const ff_recording *recording,
+                      uint32_t agent, ff_pixel *points)
+{
+    ff_colour colour = ff_look_of(scene, agent).cover[FF_COVER_SHIRT];
+    uint32_t second = (uint32_t)(1.0 / recording->step + 0.5);
+    int count = 0;
+    for (uint32_t k = 0; k < recording->step_count; ++k) {
+        const ff_track *track = ff_recording_track(recording, k, agent);
+        if (!track->present) break;
+        points[count++] = to_pixel(m, track->position);
+    }
+    ff_picture_lines(picture, points, count, ff_clamp(0.035 * m->scale, 1.5, 3.0), colour);
+    for (int k = (int)second; k < count; k += (int)second)
+        ff_picture_disc(picture, points[k], ff_clamp(0.05 * m->scale, 2.2, 4.0), colour);
+}
+
+static void draw_title(ff_picture *picture, const ff_scene *scene, const ff_recording *recording)
+{
+    uint32_t reached = 0, last = recording->step_count - 1;
+    for (uint32_t i = 0; i < recording->agent_count; ++i)
+        reached += ff_recording_track(recording, last, i)->reached;
+    char text[160];
+    snprintf(text, sizeof text, "%u agents, %u at their goals after %.1f s", recording->agent_count, reached,
+             last * recording->step);
+    const char *title = scene->title[0] ? scene->title : ff_scene_kind_name(scene->kind);
+    ff_picture_text(picture, (ff_pixel){MARGIN, 58}, 24, FF_ALIGN_LEFT, ink, title);
+    ff_picture_text(picture, (ff_pixel){MARGIN, 88}, 14, FF_ALIGN_LEFT, grey, text);
+}
+
+ff_status ff_trajectories_write(const char *path, const ff_scene *scene, const ff_recording *recording,
+                                ff_error *error)
+{
+    map m = fit(scene, recording);
+    int width = (int)((m.high.b - m.low.b) * m.scale + 2.0 * MARGIN);
+    int height = (int)((m.high.a - m.low.a) * m.scale + HEAD + FOOT);
+    ff_pixel *points = ff_calloc(recording->step_count, sizeof *points);
+    ff_picture *picture = NULL;
+    ff_status status = points ? ff_picture_create(width, height, paper, &picture, error)
+                              : ff_fail(error, FF_ERR_NO_MEMORY, "no memory to draw %s", path);
+    if (status == FF_OK) {
+        draw_grid(picture, &m);
+        for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i)
+            ff_picture_line(picture, to_pixel(&m, ff_scene_walls(scene)[i].p),
+                            to_pixel(&m, ff_scene_walls(scene)[i].q), 5.0, ink);
+        for (uint32_t i = 0; i < recording->agent_count; ++i)
+            draw_path(picture, &m, scene, recording, i, points);
+        for (uint32_t i = 0; i < recording->agent_count; ++i)
+            draw_marks(picture, &m, scene, i);
+        draw_title(picture, scene, recording);
+        draw_legend(picture, height);
+        draw_scale_bar(picture, &m, width, height);
+        status = ff_picture_write_png(picture, path, error);
+    }
+    ff_picture_destroy(picture);
+    free(points);
+    return status;
+}

@@ -1,0 +1,25 @@
+/* simulate.h - step a crowd through a scene and keep what it does. */
+#ifndef FF_SIMULATE_H
+#define FF_SIMULATE_H
+
+#include "runtime/export/recording.h"
+#include "runtime/export/watch.h"
+
+typedef struct ff_simulation {
+    const ff_pack *pack; /* borrowed, like scene and figure */
+    const ff_scene *scene;
+    const ff_figure *figure;
+    uint32_t threads;
+    bool quiet;
+    /* Made by ff_simulate: */
+    ff_recording recording;
+    ff_watch watch;
+    uint64_t state_hash;
+    ff_crowd_timings timings;
+} ff_simulation;
+
+/* Run until everyone has stood at their goal for a second, or the scene's time is over. */
+ff_status ff_simulate(ff_simulation *simulation, ff_error *error);
+void ff_simulation_free(ff_simulation *simulation);
+
+#endif
