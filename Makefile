@@ -28,8 +28,9 @@ endif
 export FF_SHARED
 
 flags_release  := -O2
-flags_sanitize := -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
-flags_fuzz     := -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+# -w: warnings are the release build's matter; in instrumented code compilers raise false ones.
+flags_sanitize := -O1 -w -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+flags_fuzz     := -O1 -w -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
 warnings := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
 # No contraction and no extra precision: the same bits from every compiler (runtime/README.md, determinism).
 # Hidden: the shared library shows what footfall.h declares and nothing else.
