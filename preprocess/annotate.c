@@ -15,12 +15,22 @@ static const double MEDIAN_STEP = 0.71;
 int ff_plant_full(const ff_plants *plants, int plant)
 {
     const ff_plant *p = &plants->items[plant];
-    if (p->flat_start >= 0) return p->flat_start;
+    int down = -1;
     for (int i = p->start; i <= p->end; ++i) {
         const ff_foot_track *t = &plants->tracks[2 * i + p->foot];
-        if (t->ball_speed < 0.6 && t->ball_height < 0.02) return i;
+        bool heel = p->flat_start < 0 || (t->heel_height < 0.02 && t->heel_speed < 0.6);
+        if (heel && t->ball_height < 0.02 && t->ball_speed < 0.6) {
+            down = i;
+            break;
+        }
     }
-    return p->start + (p->end - p->start) / 3;
+    if (down < 0) {
+        if (p->cut_end && p->flat_start < 0) return -1;
+        down = p->start + (p->end - p->start) / 3;
+    }
+    /* A foot that slides when it comes down is still only much later: it stood long before that. */
+    if (p->flat_start >= 0 && down + (p->end - p->start) / 6 >= p->flat_start) return p->flat_start;
+    return down;
 }
 
 static double ground_speed(const ff_vec3 *root, int first, int last, int i, double frame_time)

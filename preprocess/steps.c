@@ -159,9 +159,11 @@ static ff_status cut_idle(cutting *c)
 
 static ff_status cut_all(cutting *c)
 {
-    int count = c->plants->count;
-    for (int i = 0; i < count; ++i)
-        c->landings[i] = (landing){ff_plant_full(c->plants, i), i};
+    int count = 0;
+    for (int i = 0; i < c->plants->count; ++i) {
+        int full = ff_plant_full(c->plants, i);
+        if (full >= 0) c->landings[count++] = (landing){full, i};
+    }
     qsort(c->landings, (size_t)count, sizeof *c->landings, by_frame);
     c->stand_count = ff_stands_find(c->motion, c->plants, c->stands, c->motion->frame_count / 2 + 1);
     if (count == 0) return reject(c, 0, c->motion->frame_count - 1, "no foot plant was found");
@@ -175,6 +177,14 @@ static ff_status cut_all(cutting *c)
         status =
             reject(c, c->landings[count - 1].frame, c->motion->frame_count - 1, "after the last full plant");
     return status;
+}
+
+static int by_place(const void *x, const void *y)
+{
+    const ff_rejection *p = x, *q = y;
+    return p->first_frame != q->first_frame
+               ? (p->first_frame > q->first_frame) - (p->first_frame < q->first_frame)
+               : (p->last_frame > q->last_frame) - (p->last_frame < q->last_frame);
 }
 
 static int by_time(const void *x, const void *y)
@@ -204,6 +214,8 @@ ff_status ff_actions_cut(const ff_rig *rig, const ff_motion *motion, const ff_pl
     out->count = (int)c.actions.count;
     out->rejections = c.rejections.data;
     out->rejection_count = (int)c.rejections.count;
+    if (out->rejection_count > 1)
+        qsort(out->rejections, (size_t)out->rejection_count, sizeof *out->rejections, by_place);
     if (out->count > 1) qsort(out->items, (size_t)out->count, sizeof *out->items, by_time);
     return FF_OK;
 }
