@@ -12,25 +12,31 @@ static const double NO_DIRECTION = 0.02;                     /* m: a displacemen
  * the median of all clips. */
 static const double MEDIAN_STEP = 0.71;
 
+/* Is the foot down and nearly at rest? Forefoot runners stand on the ball alone. */
+static bool is_down(const ff_foot_track *t, bool forefoot)
+{
+    bool heel = forefoot || (t->heel_height < 0.02 && t->heel_speed < 0.6);
+    return heel && t->ball_height < 0.02 && t->ball_speed < 0.6;
+}
+
 int ff_plant_full(const ff_plants *plants, int plant)
 {
     const ff_plant *p = &plants->items[plant];
-    int down = -1;
-    for (int i = p->start; i <= p->end; ++i) {
-        const ff_foot_track *t = &plants->tracks[2 * i + p->foot];
-        bool heel = p->flat_start < 0 || (t->heel_height < 0.02 && t->heel_speed < 0.6);
-        if (heel && t->ball_height < 0.02 && t->ball_speed < 0.6) {
-            down = i;
-            break;
-        }
+    const ff_foot_track *tracks = plants->tracks + p->foot;
+    int down = p->start, slowest = p->start;
+    while (down <= p->end && !is_down(&tracks[2 * down], p->flat_start < 0))
+        ++down;
+    for (int i = p->start; i <= p->end; ++i)
+        if (tracks[2 * i].ball_speed < tracks[2 * slowest].ball_speed) slowest = i;
+    if (p->flat_start < 0) {
+        if (p->cut_end) return -1; /* what follows would tell */
+        if (down <= p->end) return down;
+        return tracks[2 * slowest].ball_speed > 1.0 ? -1 : slowest;
     }
-    if (down < 0) {
-        if (p->cut_end && p->flat_start < 0) return -1;
-        down = p->start + (p->end - p->start) / 3;
-    }
+    /* A clip that ends on the heel: what looks flat is not yet down. */
+    if (p->cut_end && tracks[2 * p->flat_start].ball_height > 0.03) return -1;
     /* A foot that slides when it comes down is still only much later: it stood long before that. */
-    if (p->flat_start >= 0 && down + (p->end - p->start) / 6 >= p->flat_start) return p->flat_start;
-    return down;
+    return down + (p->end - p->start) / 6 < p->flat_start ? down : p->flat_start;
 }
 
 static double ground_speed(const ff_vec3 *root, int first, int last, int i, double frame_time)

@@ -14,7 +14,7 @@ typedef struct ff_step_span {
 } ff_step_span;
 
 /* First frame in which the whole foot is down: flat_start; for a foot that is never flat (forefoot runners) the first
- * frame in which the ball rests. -1 when the clip ends before it is down. */
+ * frame in which the ball rests. -1 when it never is. */
 int ff_plant_full(const ff_plants *plants, int plant);
 
 /* Metabolic energy of walking (algorithms B.2), J/kg: integral of e_s + e_w v^2 over the root's ground path. */

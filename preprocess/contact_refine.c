@@ -182,9 +182,10 @@ static void find_end(const ff_foot_signals *s, int next_first, double running, f
     int to = clamp_frame(s, (int)ff_min(next_first - 1, c->last + SWING_REACH * s->rate));
     int peak = peak_of(s->speed[FF_FOOT_BALL], c->last, to > c->last ? to : c->last);
     double limit = ff_clamp(0.25 * swing_peak(s, c, peak), 0.35, ff_lerp(0.9, 1.15, running));
-    if (c->last == s->count - 1 && s->speed[FF_FOOT_TOE][peak] < limit) return; /* goes on after the clip */
-    votes v = {.count = 0};
     int toe = leaves_rest(s, c, FF_FOOT_TOE, peak, limit);
+    /* At the clip's end: still standing, or only just coming down. */
+    if (c->last == s->count - 1 && (toe == peak || toe == c->first)) return;
+    votes v = {.count = 0};
     vote(&v, toe);
     vote(&v, leaves_rest(s, c, FF_FOOT_BALL, peak, 1.15 * limit));
     if (c->last < s->count - 1) vote(&v, half_push(s, toe, (int)(0.06 * s->rate), (int)(0.12 * s->rate)));

@@ -10,7 +10,7 @@ static const double JUMP_FLIGHT = 0.3;                              /* s: twice 
 static const double TOGETHER = 0.06;                                /* s: both feet leave or land as one */
 static const double CROUCHED = 0.8;                                 /* hips, share of their height at rest */
 /* m. Algorithms A.6, but a run of 4 m/s carries its feet 2.7 m. */
-static const double FARTHEST_SWING = 2.2, FARTHEST_RUN = 3.5, STEP_UP = 0.05;
+static const double FARTHEST_SWING = 2.2, FARTHEST_RUN = 3.5, STEP_UP = 0.05, OFF_FLOOR = 0.1;
 static const double DOUBTFUL = 0.3; /* confidence of a plant */
 
 static bool is_jump(const ff_motion *motion, const ff_plants *plants, const ff_step_span *span)
@@ -49,6 +49,14 @@ int ff_step_mode(const ff_rig *rig, const ff_motion *motion, const ff_plants *pl
     return -1;
 }
 
+/* Height of a plant's ball over where the plane of the floor has it, m. */
+static double over_floor(const ff_plants *plants, const ff_plant *plant)
+{
+    const ff_floor *floor = &plants->floor;
+    return plant->ball_y - floor->base - ff_dot2(floor->slope, plant->ball) -
+           plants->shape[plant->foot].ball_height;
+}
+
 static bool say(char *reason, size_t size, const char *format, double value)
 {
     /* Every format below takes one number. */
@@ -72,10 +80,10 @@ bool ff_step_acceptable(const ff_motion *motion, const ff_plants *plants, const 
     double swung = ff_length2(ff_v2((double)r->swing_displacement[0], (double)r->swing_displacement[1]));
     if (swung > (run ? FARTHEST_RUN : FARTHEST_SWING))
         return say(reason, size, "the swing foot moves too far (%.2f m)", swung);
-    double up = swing->ball_y - ff_dot2(plants->floor.slope, swing->ball) -
-                plants->shape[swing->foot].ball_height -
-                (support->ball_y - ff_dot2(plants->floor.slope, support->ball) -
-                 plants->shape[support->foot].ball_height);
-    if (fabs(up) > STEP_UP) return say(reason, size, "the footsteps differ in height (%.1f cm)", 100.0 * up);
+    double from = over_floor(plants, support), to = over_floor(plants, swing);
+    if (fabs(to - from) > STEP_UP)
+        return say(reason, size, "the footsteps differ in height (%.1f cm)", 100.0 * (to - from));
+    if (fabs(to) > OFF_FLOOR)
+        return say(reason, size, "the footsteps are not on the floor (%.1f cm)", 100.0 * to);
     return true;
 }
