@@ -44,9 +44,10 @@ static ff_status plan_lines(reader *r)
         for (int i = 0; i < asf->bones[b].dof_count; ++i)
             r->angles += asf->bones[b].dof[i] < 3;
     r->plans = ff_calloc((size_t)asf->bone_count, sizeof *r->plans);
-    r->values = ff_calloc((size_t)r->angles + 3, sizeof *r->values);
-    r->sine = ff_calloc((size_t)r->angles, sizeof *r->sine);
-    r->cosine = ff_calloc((size_t)r->angles, sizeof *r->cosine);
+    size_t room = ff_angle_room((size_t)r->angles);
+    r->values = ff_calloc(room + 3, sizeof *r->values);
+    r->sine = ff_calloc(room, sizeof *r->sine);
+    r->cosine = ff_calloc(room, sizeof *r->cosine);
     r->clip->joints = ff_calloc((size_t)asf->joint_count, sizeof *asf->joints);
     if (!r->plans || !r->values || !r->sine || !r->cosine || !r->clip->joints)
         return ff_fail(r->error, FF_ERR_NO_MEMORY, "no memory for the skeleton");

@@ -35,14 +35,15 @@ static inline double choose(uint64_t mask, double yes, double no)
     return yes;
 }
 
-/* Half the angle is n quarter turns plus a rest of at most an eighth. No branches, so that it is vectorised. */
-void ff_half_sincos(const double *angles, size_t count, bool degrees, double *sine, double *cosine)
+/* Half the angle is n quarter turns plus a rest of at most an eighth of a turn. A block has a fixed size and no
+ * branches, so that compilers turn it into vector code. */
+static void half_sincos_block(const double *restrict angle, const reduction *by, double *restrict sine,
+                              double *restrict cosine)
 {
-    const reduction by = degrees ? of_degrees : of_radians;
-    for (size_t i = 0; i < count; ++i) {
-        double shifted = angles[i] * by.per_half_turn + ROUND_SHIFT;
+    for (int i = 0; i < FF_ANGLE_BLOCK; ++i) {
+        double shifted = angle[i] * by->per_half_turn + ROUND_SHIFT;
         double n = shifted - ROUND_SHIFT;
-        double rest = ((angles[i] - n * by.half_turn) - n * by.half_turn_rest) * by.to_half_radians;
+        double rest = ((angle[i] - n * by->half_turn) - n * by->half_turn_rest) * by->to_half_radians;
         double s = ff_kernel_sin(rest), c = ff_kernel_cos(rest);
         uint64_t quarter;
         memcpy(&quarter, &shifted, sizeof quarter);
@@ -51,4 +52,10 @@ void ff_half_sincos(const double *angles, size_t count, bool degrees, double *si
         sine[i] = flip(choose(odd, c, s), half);
         cosine[i] = flip(choose(odd, s, c), half ^ (odd & SIGN_BIT));
     }
+}
+
+void ff_half_sincos(const double *angles, size_t count, bool degrees, double *sine, double *cosine)
+{
+    for (size_t i = 0; i < count; i += FF_ANGLE_BLOCK)
+        half_sincos_block(angles + i, degrees ? &of_degrees : &of_radians, sine + i, cosine + i);
 }

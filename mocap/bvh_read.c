@@ -208,11 +208,11 @@ static ff_status lay_out_row(reader *r)
     if (r->channels == 0)
         return ff_text_fail(&r->text, NULL, FF_ERR_NO_DATA, r->error,
                             "no joint has a channel: nothing moves");
-    size_t room = (size_t)r->angles + 3 * (size_t)clip->track_count;
+    size_t whole = ff_angle_room((size_t)r->angles), room = whole + 3 * (size_t)clip->track_count;
     r->slot = ff_calloc((size_t)r->channels, sizeof *r->slot);
     r->values = ff_calloc(room, sizeof *r->values);
-    r->sine = ff_calloc((size_t)r->angles, sizeof *r->sine);
-    r->cosine = ff_calloc((size_t)r->angles, sizeof *r->cosine);
+    r->sine = ff_calloc(whole, sizeof *r->sine);
+    r->cosine = ff_calloc(whole, sizeof *r->cosine);
     if (!r->slot || !r->values || !r->sine || !r->cosine)
         return ff_fail(r->error, FF_ERR_NO_MEMORY, "no memory for a row of %d channels", r->channels);
     int n = 0;
