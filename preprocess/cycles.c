@@ -29,7 +29,6 @@ void ff_cycles_free(ff_cycles *cycles)
 typedef struct cycle {
     int start, length; /* frames of the motion */
     double key[4];     /* frames after start: left contact, right off, right contact, left off */
-    double flat[2];    /* frames after start */
     int gait;
 } cycle;
 
@@ -38,11 +37,6 @@ static int next_of(const ff_plants *plants, int from, int foot)
     for (int i = from + 1; i < plants->count; ++i)
         if (plants->items[i].foot == foot) return i;
     return -1;
-}
-
-static double flat_frame(const ff_plant *plant, double period)
-{
-    return plant->flat_start >= 0 ? plant->flat_start : plant->start + 0.07 * period;
 }
 
 /* Keys of the cycle that starts with plant index, a left one; false when contacts do not come in the order of a walk
@@ -76,8 +70,6 @@ static bool find_keys(const ff_plants *plants, int index, double frame_time, cyc
     out->key[1] = right_off - start;
     out->key[2] = right->start - start;
     out->key[3] = left->end + 1 - start;
-    out->flat[0] = flat_frame(left, period) - start;
-    out->flat[1] = flat_frame(right, period) - start;
     if (walks) return out->key[1] < out->key[2] && out->key[2] < out->key[3] && out->key[3] < period;
     return out->key[3] < out->key[2] && out->key[2] < out->key[1] && out->key[1] < period;
 }
@@ -158,13 +150,12 @@ ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const f
     ff_steady_root root = ff_steady_root_still(motion, &best);
     ff_status status = ff_loop_close(rig, motion, &best, &root, example, error);
     if (status != FF_OK) return status;
-    const double flat[2] = {0.0, 0.0};
     const float keys[4] = {0.0f, 0.1f, 0.5f, 0.6f};
     memcpy(example->record.key, keys, sizeof keys);
     example->record.flags = FF_EXAMPLE_IDLE;
     example->clip = clip;
     snprintf(example->name, sizeof example->name, "%.60s@%d idle", clip_name, best.start);
-    ff_example_find_feet(rig, example, flat);
+    ff_example_find_feet(rig, example);
     ++out->count;
     return FF_OK;
 }
@@ -194,8 +185,7 @@ ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_pla
         }
         example->clip = clip;
         snprintf(example->name, sizeof example->name, "%.60s@%d", clip_name, c.start);
-        const double flat[2] = {c.flat[0] / c.length, c.flat[1] / c.length};
-        if (ff_example_find_feet(rig, example, flat) >= LOCK_MIN) {
+        if (ff_example_find_feet(rig, example) >= LOCK_MIN) {
             ++out->count;
         } else {
             ff_example_free(example);

@@ -93,33 +93,31 @@ static void contact_frames(const ff_example *example, int foot, double *contact,
     if (*off < *contact) *off += n;
 }
 
-static double find_lock(const ff_rig *rig, ff_example *example, int foot, double flat)
+/* The longest stretch of the stance in which the ball is still and down: from about foot-flat to shortly before
+ * toe-off. */
+static double find_lock(const ff_rig *rig, ff_example *example, int foot)
 {
     ff_vec3 rest[FF_BODY_COUNT];
     ff_rig_rest_pose(rig, rest);
     double limit = example->record.gait == FF_GAIT_RUN ? HOLD_SPEED_RUN : HOLD_SPEED_WALK;
     double contact, off, n = example->frame_count;
     contact_frames(example, foot, &contact, &off);
-    double start = flat * n;
-    while (start < contact - 1e-9)
-        start += n;
-    int first = -1, last = -1;
-    for (int k = (int)ceil(start); k < off; ++k) {
+    int first = (int)(0.5 * (contact + off)), last = first, start = -1;
+    for (int k = (int)ceil(contact); k < off; ++k) {
         int frame = k % example->frame_count;
         double rise = (double)example->feet[2 * frame + foot].ball[2] - rest[FF_ROLE_BALL_L].y;
         bool still = ball_speed(example, frame, foot) < limit && rise < HOLD_RISE;
-        if (first < 0 && still) first = k;
-        if (first >= 0 && !still) break;
-        if (first >= 0) last = k;
+        if (!still) start = -1;
+        if (still && start < 0) start = k;
+        if (still && k - start > last - first) first = start, last = k;
     }
-    if (first < 0) first = last = (int)(0.5 * (start + off));
     float *lock = example->record.lock[foot];
     lock[0] = (float)fmod(first / n, 1.0);
     lock[1] = (float)fmod(last / n, 1.0);
     return (last - first) / n;
 }
 
-double ff_example_find_feet(const ff_rig *rig, ff_example *example, const double flat[2])
+double ff_example_find_feet(const ff_rig *rig, ff_example *example)
 {
     ff_vec3 at[FF_BODY_COUNT];
     for (int k = 0; k < example->frame_count; ++k) {
@@ -132,7 +130,7 @@ double ff_example_find_feet(const ff_rig *rig, ff_example *example, const double
             example->record.lock[foot][0] = 0.0f, example->record.lock[foot][1] = -1.0f;
         return 1.0;
     }
-    return ff_min(find_lock(rig, example, FF_LEFT, flat[0]), find_lock(rig, example, FF_RIGHT, flat[1]));
+    return ff_min(find_lock(rig, example, FF_LEFT), find_lock(rig, example, FF_RIGHT));
 }
 
 /* ------------------------------------------------------------------------------------------- mirrored, reversed */
@@ -143,8 +141,7 @@ static double phase_after(double phase, double start)
     return p < 0.0 ? p + 1.0 : p;
 }
 
-/* Pose at a phase of a cyclic example. */
-static void sample_cycle(const ff_example *example, double phase, ff_vec3 *hips, ff_quat *rotations)
+void ff_example_sample(const ff_example *example, double phase, ff_vec3 *hips, ff_quat *rotations)
 {
     int n = example->frame_count;
     double frame = (phase - floor(phase)) * n;
@@ -184,16 +181,14 @@ ff_status ff_example_mirror(const ff_rig *rig, const ff_example *example, ff_exa
     for (int k = 0; k < out->frame_count; ++k) {
         ff_quat from[FF_ROLE_JOINT_COUNT], *to = out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
         ff_vec3 hips;
-        sample_cycle(example, start + k / (double)out->frame_count, &hips, from);
+        ff_example_sample(example, start + k / (double)out->frame_count, &hips, from);
         out->hips[k] = ff_v3(hips.x, -hips.y, hips.z);
         for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
             ff_quat q = from[ff_role_mirror((ff_role)r)];
             to[r] = (ff_quat){q.x, -q.y, -q.z, q.w};
         }
     }
-    const double flat[2] = {phase_after((double)example->record.lock[1][0], start),
-                            phase_after((double)example->record.lock[0][0], start)};
-    ff_example_find_feet(rig, out, flat);
+    ff_example_find_feet(rig, out);
     return FF_OK;
 }
 
@@ -211,10 +206,8 @@ ff_status ff_example_reverse(const ff_rig *rig, const ff_example *example, ff_ex
     out->record.key[2] = (float)phase_after(start, (double)key[1]);
     out->record.key[3] = (float)phase_after(start, (double)key[0]);
     for (int k = 0; k < out->frame_count; ++k)
-        sample_cycle(example, start - k / (double)out->frame_count, &out->hips[k],
-                     out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT);
-    const double flat[2] = {phase_after(start, (double)example->record.lock[0][1]),
-                            phase_after(start, (double)example->record.lock[1][1])};
-    ff_example_find_feet(rig, out, flat);
+        ff_example_sample(example, start - k / (double)out->frame_count, &out->hips[k],
+                          out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT);
+    ff_example_find_feet(rig, out);
     return FF_OK;
 }

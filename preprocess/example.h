@@ -24,9 +24,12 @@ void ff_example_free(ff_example *example);
 /* Points of one frame [FF_BODY_COUNT] in the root's frame: x = left, y = up, z = forward. */
 void ff_example_pose(const ff_rig *rig, const ff_example *example, int frame, ff_vec3 *positions);
 
-/* Fill feet from the poses, then lock from where the balls stand still (record.key must be set). flat[foot] = phase at
- * which the sole is down. Returns the shorter of the two locks, as a share of the cycle. */
-double ff_example_find_feet(const ff_rig *rig, ff_example *example, const double flat[2]);
+/* Fill feet from the poses, then lock from where the balls stand still (record.key must be set). Returns the shorter
+ * of the two locks, as a share of the cycle. */
+double ff_example_find_feet(const ff_rig *rig, ff_example *example);
+
+/* Pose at a phase of the cycle (any number; its fraction counts). */
+void ff_example_sample(const ff_example *example, double phase, ff_vec3 *hips, ff_quat *rotations);
 
 /* Left and right exchanged, and re-phased so that the cycle again starts with the left contact. */
 ff_status ff_example_mirror(const ff_rig *rig, const ff_example *example, ff_example *out, ff_error *error);

@@ -1,0 +1,310 @@
+#include "preprocess/examples.h"
+
+#include "preprocess/derive.h"
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What a cycle may cost to be used: seam (m) and wander (rad). Turns never close as well as straight walks do
+ * (synthesis study, section 1). */
+#define SEAM_STRAIGHT 0.05
+#define SEAM_OTHER 0.08
+#define WANDER 0.2
+#define WANDER_COST 0.15   /* m per rad */
+#define STRANGER_COST 0.02 /* m: another person's cycle is taken where the base person has none */
+/* Metres per second that 1 rad/s counts for, as the runtime measures rates. */
+#define TURN_SCALE 0.5
+/* Examples are at least this far apart (m/s). */
+#define SPACING_WALK 0.2
+#define SPACING_RUN 0.4
+/* Hips lower than this share of their height in the rest pose crouch. */
+#define UPRIGHT 0.9
+
+static ff_vec3 point_of(const ff_example *e)
+{
+    return ff_v3((double)e->record.v_forward, (double)e->record.v_left,
+                 TURN_SCALE * (double)e->record.turn_rate);
+}
+
+static ff_vec3 mirror_point(ff_vec3 p)
+{
+    return ff_v3(p.x, -p.y, -p.z);
+}
+
+/* Nearer of the two sides' distances. */
+static double distance(ff_vec3 p, ff_vec3 q)
+{
+    return ff_min(ff_length3(ff_sub3(p, q)), ff_length3(ff_sub3(p, mirror_point(q))));
+}
+
+static bool is_straight(const ff_example *e)
+{
+    return e->record.v_left == 0.0f && e->record.turn_rate == 0.0f;
+}
+
+/* --------------------------------------------------------------------------------------------- what is usable */
+
+static double mean_height(const ff_example *e)
+{
+    double sum = 0.0;
+    for (int k = 0; k < e->frame_count; ++k)
+        sum += e->hips[k].z;
+    return sum / e->frame_count;
+}
+
+static bool is_usable(const ff_rig *rig, const ff_example *e)
+{
+    double v = ff_length2(ff_v2((double)e->record.v_forward, (double)e->record.v_left)),
+           seam = (double)e->record.seam;
+    if (mean_height(e) < UPRIGHT * rig->offset[FF_ROLE_HIPS].y) return false;
+    if (e->record.flags & FF_EXAMPLE_IDLE) return seam < SEAM_STRAIGHT;
+    if (seam > (is_straight(e) && e->record.gait == FF_GAIT_WALK ? SEAM_STRAIGHT : SEAM_OTHER)) return false;
+    if (e->wander > WANDER) return false;
+    if (e->record.gait == FF_GAIT_RUN) return e->record.v_forward > 1.5f;
+    return v < 2.4 && fabs((double)e->record.turn_rate) < 2.6;
+}
+
+/* -------------------------------------------------------------------------------------------------- choosing */
+
+typedef struct candidate {
+    ff_example *example;
+    int subject, order;
+    double cost;
+} candidate;
+
+static int by_cost(const void *x, const void *y)
+{
+    const candidate *a = x, *b = y;
+    if (a->cost != b->cost) return a->cost < b->cost ? -1 : 1;
+    return a->order - b->order;
+}
+
+static double cost_of(const ff_example *e)
+{
+    return (double)e->record.seam + WANDER_COST * e->wander;
+}
+
+/* Take candidates in order of cost, each one that is spacing away from all taken before. chosen receives their
+ * indices; subject < 0 = everybody's. */
+static int choose(const candidate *list, int count, int subject, uint32_t gait, double spacing, int limit,
+                  int *chosen)
+{
+    int taken = 0;
+    for (int i = 0; i < count && taken < limit; ++i) {
+        const ff_pack_example *record = &list[i].example->record;
+        if (record->gait != gait || (record->flags & FF_EXAMPLE_IDLE) ||
+            (subject >= 0 && list[i].subject != subject))
+            continue;
+        bool apart = true;
+        for (int k = 0; k < taken && apart; ++k)
+            apart = distance(point_of(list[i].example), point_of(list[chosen[k]].example)) >= spacing;
+        if (apart) chosen[taken++] = i;
+    }
+    return taken;
+}
+
+/* The subject whose walks cover most rates. */
+static int find_base(const candidate *list, int count, int *chosen)
+{
+    int best = -1, most = 0;
+    for (int i = 0; i < count; ++i) {
+        bool seen = false;
+        for (int k = 0; k < i && !seen; ++k)
+            seen = list[k].subject == list[i].subject;
+        if (seen) continue;
+        int covered = choose(list, count, list[i].subject, FF_GAIT_WALK, SPACING_WALK, count, chosen);
+        bool smaller_name = covered == most && list[i].subject < best;
+        if (covered > most || smaller_name) most = covered, best = list[i].subject;
+    }
+    return best;
+}
+
+static int list_candidates(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
+                           candidate *list)
+{
+    int count = 0;
+    for (int c = 0; c < clip_count; ++c) {
+        for (int i = 0; i < cycles[c].count; ++i) {
+            ff_example *e = &cycles[c].items[i];
+            if (!is_usable(rig, e)) continue;
+            list[count] = (candidate){e, subject[c], count, cost_of(e)};
+            ++count;
+        }
+    }
+    qsort(list, (size_t)count, sizeof *list, by_cost);
+    return count;
+}
+
+/* ---------------------------------------------------------------------------------------------- the set itself */
+
+static ff_example *add_slot(ff_example_set *set, int capacity)
+{
+    return set->count < capacity ? &set->items[set->count] : NULL;
+}
+
+/* Move an example into the set, with its mirror image unless it is its own. */
+static ff_status add_example(const ff_rig *rig, ff_example_set *set, int capacity, ff_example *e,
+                             ff_error *error)
+{
+    ff_example *slot = add_slot(set, capacity);
+    if (!slot) return ff_fail(error, FF_ERR_RANGE, "more than %d examples", capacity);
+    *slot = *e;
+    memset(e, 0, sizeof *e);
+    ++set->count;
+    if (is_straight(slot)) return FF_OK;
+    ff_example *mirrored = add_slot(set, capacity);
+    if (!mirrored) return ff_fail(error, FF_ERR_RANGE, "more than %d examples", capacity);
+    ff_status status = ff_example_mirror(rig, slot, mirrored, error);
+    if (status == FF_OK) ++set->count;
+    return status;
+}
+
+/* How far the nearest example of the set is from a target. */
+static double nearest(const ff_example_set *set, ff_vec3 target)
+{
+    double best = 1e9;
+    for (int i = 0; i < set->count; ++i) {
+        const ff_example *e = &set->items[i];
+        if (e->record.gait == FF_GAIT_WALK && !(e->record.flags & FF_EXAMPLE_IDLE))
+            best = ff_min(best, distance(target, point_of(e)));
+    }
+    return best;
+}
+
+/* What walking needs, and from how far away (m/s) a captured example does instead. Limits and periods are those of the
+ * synthesis study, section 5. */
+static const struct need {
+    ff_derive_target target;
+    double within;
+} needs[] = {
+    {{"step in place", 0.0, 0.0, 0.0, 1.1}, 0.1},    {{"slow walk", 0.45, 0.0, 0.0, 1.3}, 0.25},
+    {{"turn in place", 0.0, 0.0, 1.57, 0.95}, 0.35}, {{"side step", 0.0, 0.55, 0.0, 0.85}, 0.3},
+    {{"back", -0.7, 0.0, 0.0, 1.1}, 0.35},           {{"tight turn", 0.7, 0.0, 1.5, 1.0}, 0.3},
+};
+
+static ff_status derive_needs(const ff_rig *rig, const ff_example *base, ff_example_set *set, int capacity,
+                              ff_error *error)
+{
+    ff_example reversed;
+    ff_status status = ff_example_reverse(rig, base, &reversed, error);
+    for (size_t i = 0; status == FF_OK && i < sizeof needs / sizeof needs[0]; ++i) {
+        const ff_derive_target *target = &needs[i].target;
+        if (nearest(set, ff_v3(target->forward, target->left, TURN_SCALE * target->turn)) < needs[i].within)
+            continue;
+        ff_example made;
+        status = ff_derive_walk(rig, target->forward < 0.0 ? &reversed : base, target, &made, error);
+        if (status == FF_OK) {
+            status = add_example(rig, set, capacity, &made, error);
+            ff_example_free(&made);
+        }
+    }
+    ff_example_free(&reversed);
+    return status;
+}
+
+/* The straight walk to derive from: nearest to an easy 1.15 m/s. */
+static const ff_example *find_model(const ff_example_set *set)
+{
+    const ff_example *best = NULL;
+    for (int i = 0; i < set->count; ++i) {
+        const ff_example *e = &set->items[i];
+        if (e->record.gait != FF_GAIT_WALK || !is_straight(e) || e->record.v_forward < 0.5f) continue;
+        if (!best || fabsf(e->record.v_forward - 1.15f) < fabsf(best->record.v_forward - 1.15f)) best = e;
+    }
+    return best;
+}
+
+static ff_status add_idle(const ff_rig *rig, const candidate *list, int count, const ff_example *model,
+                          ff_example_set *set, int capacity, ff_error *error)
+{
+    ff_example made;
+    for (int i = 0; i < count; ++i)
+        if (list[i].example->record.flags & FF_EXAMPLE_IDLE)
+            return add_example(rig, set, capacity, list[i].example, error);
+    ff_status status = ff_derive_idle(rig, model, &made, error);
+    if (status == FF_OK) status = add_example(rig, set, capacity, &made, error);
+    ff_example_free(&made);
+    return status;
+}
+
+static int rank(const ff_example *e)
+{
+    if (e->record.flags & FF_EXAMPLE_IDLE) return 0;
+    return e->record.gait == FF_GAIT_WALK ? 1 : 2;
+}
+
+static int by_rates(const void *x, const void *y)
+{
+    const ff_example *a = x, *b = y;
+    if (rank(a) != rank(b)) return rank(a) - rank(b);
+    ff_vec3 p = point_of(a), q = point_of(b);
+    if (p.x != q.x) return p.x < q.x ? -1 : 1;
+    if (p.y * p.y != q.y * q.y) return fabs(p.y) < fabs(q.y) ? -1 : 1;
+    if (fabs(p.z) != fabs(q.z)) return fabs(p.z) < fabs(q.z) ? -1 : 1;
+    if (p.z != q.z) return p.z > q.z ? -1 : 1;
+    return p.y > q.y ? -1 : (p.y < q.y ? 1 : 0);
+}
+
+static ff_status fill_set(const ff_rig *rig, candidate *list, int count, int *chosen, ff_example_set *out,
+                          ff_error *error)
+{
+    const int room = 2 * (FF_EXAMPLES_MAX_WALKS + FF_EXAMPLES_MAX_RUNS);
+    out->candidates = count;
+    out->base = find_base(list, count, chosen);
+    for (int i = 0; i < count; ++i)
+        if (list[i].subject != out->base) list[i].cost += STRANGER_COST;
+    qsort(list, (size_t)count, sizeof *list, by_cost);
+    ff_status status = FF_OK;
+    for (uint32_t gait = FF_GAIT_WALK; gait <= FF_GAIT_RUN; ++gait) {
+        /* Half of the room: the rest is for mirror images and what has to be made up. */
+        int limit = (gait == FF_GAIT_WALK ? FF_EXAMPLES_MAX_WALKS - 12 : FF_EXAMPLES_MAX_RUNS) / 2;
+        double spacing = gait == FF_GAIT_WALK ? SPACING_WALK : SPACING_RUN;
+        int taken = choose(list, count, -1, gait, spacing, limit, chosen);
+        for (int i = 0; i < taken && status == FF_OK; ++i)
+            status = add_example(rig, out, room, list[chosen[i]].example, error);
+    }
+    const ff_example *model = find_model(out);
+    if (status == FF_OK && !model)
+        return ff_fail(
+            error, FF_ERR_NO_DATA,
+            "no clip has a whole straight walking cycle (left contact to left contact) that closes within "
+            "%.0f cm; add longer walks",
+            100.0 * SEAM_STRAIGHT);
+    if (status == FF_OK) status = derive_needs(rig, model, out, room, error);
+    if (status == FF_OK) status = add_idle(rig, list, count, model, out, room, error);
+    if (status == FF_OK) qsort(out->items, (size_t)out->count, sizeof *out->items, by_rates);
+    return status;
+}
+
+ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
+                             ff_example_set *out, ff_error *error)
+{
+    memset(out, 0, sizeof *out);
+    size_t all = 0;
+    for (int c = 0; c < clip_count; ++c)
+        all += (size_t)cycles[c].count;
+    candidate *list = ff_calloc(all, sizeof *list);
+    int *chosen = ff_calloc(all, sizeof *chosen);
+    out->items = ff_calloc(2 * (FF_EXAMPLES_MAX_WALKS + FF_EXAMPLES_MAX_RUNS), sizeof *out->items);
+    ff_status status;
+    if (list && chosen && out->items) {
+        int count = list_candidates(rig, cycles, subject, clip_count, list);
+        status = fill_set(rig, list, count, chosen, out, error);
+    } else {
+        status = ff_fail(error, FF_ERR_NO_MEMORY, "choosing among %zu gait cycles", all);
+    }
+    free(list);
+    free(chosen);
+    if (status != FF_OK) ff_example_set_free(out);
+    return status;
+}
+
+void ff_example_set_free(ff_example_set *set)
+{
+    for (int i = 0; i < set->count; ++i)
+        ff_example_free(&set->items[i]);
+    free(set->items);
+    memset(set, 0, sizeof *set);
+}

@@ -1,0 +1,26 @@
+/* examples.h - which of all the cycles found the pack walks with. */
+#ifndef FF_EXAMPLES_H
+#define FF_EXAMPLES_H
+
+#include "preprocess/cycles.h"
+
+#define FF_EXAMPLES_MAX_WALKS 60
+#define FF_EXAMPLES_MAX_RUNS 20
+
+typedef struct ff_example_set {
+    ff_example
+        *items; /* idle first, then walks, then runs, each by rates; mirrored copies follow their original */
+    int count;
+    int base;       /* subject whose cycles come first, -1 = none */
+    int candidates; /* cycles that were good enough to choose from */
+} ff_example_set;
+
+/* Choose from the cycles of every clip (whose subject is subject[clip]) a set that covers as many rates as the clips
+ * show, the same to the left as to the right; make up what is missing and walking needs: standing, stepping in place,
+ * turning in place, side steps, slow and backward walks. Chosen cycles move out of cycles. Fails with FF_ERR_NO_DATA
+ * when there is no straight walk. */
+ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
+                             ff_example_set *out, ff_error *error);
+void ff_example_set_free(ff_example_set *set);
+
+#endif
