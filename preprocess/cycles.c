@@ -125,8 +125,7 @@ static double best_loop(const ff_rig *rig, const ff_motion *motion, int first, i
 }
 
 ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                             int rest_frames, int clip, const char *clip_name, ff_cycles *out,
-                             ff_error *error)
+                             int rest_frames, const char *clip_name, ff_cycles *out, ff_error *error)
 {
     ff_stretch best = {0, 0}, here;
     double seam = 1e9;
@@ -153,7 +152,6 @@ ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const f
     const float keys[4] = {0.0f, 0.1f, 0.5f, 0.6f};
     memcpy(example->record.key, keys, sizeof keys);
     example->record.flags = FF_EXAMPLE_IDLE;
-    example->clip = clip;
     snprintf(example->name, sizeof example->name, "%.60s@%d idle", clip_name, best.start);
     ff_example_find_feet(rig, example);
     ++out->count;
@@ -163,7 +161,7 @@ ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const f
 /* ---------------------------------------------------------------------------------------------------- cycles */
 
 ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int rest_frames,
-                        int clip, const char *clip_name, ff_cycles *out, ff_error *error)
+                        const char *clip_name, ff_cycles *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
     out->items = ff_calloc((size_t)plants->count + 1, sizeof *out->items); /* + 1: an idle loop */
@@ -183,7 +181,6 @@ ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_pla
             ff_cycles_free(out);
             return status;
         }
-        example->clip = clip;
         snprintf(example->name, sizeof example->name, "%.60s@%d", clip_name, c.start);
         if (ff_example_find_feet(rig, example) >= LOCK_MIN) {
             ++out->count;

@@ -1,0 +1,209 @@
+#include "preprocess/build.h"
+
+#include "mocap/generator/generator.h"
+#include "preprocess/build_clip.h"
+#include "preprocess/pack_fill.h"
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/tasks.h"
+#include "runtime/tool/progress.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+ff_build_settings ff_build_settings_default(void)
+{
+    return (ff_build_settings){.threads = ff_processor_count(), .rate = FF_PACK_RATE};
+}
+
+void ff_build_result_free(ff_build_result *result)
+{
+    ff_pack_content_free(&result->content);
+    free(result->skipped);
+    memset(result, 0, sizeof *result);
+}
+
+typedef struct build {
+    const ff_catalogue *catalogue; /* NULL = built-in clips */
+    const ff_build_settings *settings;
+    ff_tasks *tasks;
+    ff_progress *progress;
+    ff_build_clip *clips; /* the good ones first, [good, count) were left out */
+    int count, good;
+    ff_rig rig;
+    ff_build_result *result;
+} build;
+
+/* ---------------------------------------------------------------------------------------------------- sources */
+
+/* Length of the folder part that all paths share, so that the rest says the same on every machine. */
+static size_t shared_folder(const ff_catalogue *catalogue)
+{
+    if (catalogue->count == 0) return 0;
+    const char *first = catalogue->entries[0].path, *slash = strrchr(first, '/');
+    size_t length = slash ? (size_t)(slash - first) + 1 : 0;
+    for (int i = 1; i < catalogue->count; ++i) {
+        const char *path = catalogue->entries[i].path;
+        size_t same = 0;
+        while (same < length && path[same] == first[same])
+            ++same;
+        while (same > 0 && first[same - 1] != '/')
+            --same;
+        length = same;
+    }
+    return length;
+}
+
+static char *copy_text(const char *text)
+{
+    char *copy = malloc(strlen(text) + 1);
+    if (copy) memcpy(copy, text, strlen(text) + 1);
+    return copy;
+}
+
+static ff_status name_sources(build *b, ff_error *error)
+{
+    b->count = b->catalogue ? b->catalogue->count : ff_generator_count();
+    if (b->count == 0) return ff_fail(error, FF_ERR_NO_DATA, "no clip to build from (.amc or .bvh)");
+    b->clips = ff_calloc((size_t)b->count, sizeof *b->clips);
+    if (!b->clips) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->count);
+    size_t skip = b->catalogue ? shared_folder(b->catalogue) : 0;
+    for (int i = 0; i < b->count; ++i) {
+        char text[256];
+        snprintf(text, sizeof text, "built-in/%s", b->catalogue ? "" : ff_generator_describe(i).name);
+        b->clips[i].source = copy_text(b->catalogue ? b->catalogue->entries[i].path + skip : text);
+        if (!b->clips[i].source)
+            return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->count);
+    }
+    return FF_OK;
+}
+
+/* ------------------------------------------------------------------------------------------------------ stages */
+
+static void load_one(void *context, uint32_t index)
+{
+    build *b = context;
+    ff_build_clip *clip = &b->clips[index];
+    if (b->catalogue) {
+        ff_build_clip_load(clip, &b->catalogue->entries[index]);
+    } else {
+        ff_build_clip_generate(clip, (int)index);
+    }
+    ff_progress_step(b->progress, clip->source);
+}
+
+static void cut_one(void *context, uint32_t index)
+{
+    build *b = context;
+    ff_build_clip_cut(&b->clips[index], &b->rig);
+    ff_progress_step(b->progress, b->clips[index].source);
+}
+
+/* Move clips that failed behind the good ones, both in order. With strict the first one ends the build. */
+static ff_status set_bad_aside(build *b, ff_error *error)
+{
+    int kept = 0;
+    for (int i = 0; i < b->good; ++i) {
+        if (b->clips[i].status == FF_OK) {
+            ++kept;
+            continue;
+        }
+        if (!b->settings->strict) continue;
+        if (error) *error = b->clips[i].error;
+        return b->clips[i].status;
+    }
+    ff_build_clip *sorted = ff_calloc((size_t)b->good, sizeof *sorted);
+    if (!sorted) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
+    int front = 0, back = kept;
+    for (int i = 0; i < b->good; ++i)
+        sorted[b->clips[i].status == FF_OK ? front++ : back++] = b->clips[i];
+    memcpy(b->clips, sorted, (size_t)b->good * sizeof *sorted);
+    free(sorted);
+    b->good = kept;
+    if (kept > 0) return FF_OK;
+    if (error) *error = b->clips[0].error;
+    return b->clips[0].status;
+}
+
+static ff_status run_stage(build *b, const char *what, void (*stage)(void *, uint32_t), ff_error *error)
+{
+    b->progress = ff_progress_start(what, (uint64_t)b->good, b->settings->quiet);
+    ff_tasks_for(b->tasks, (uint32_t)b->good, 1, stage, b);
+    ff_progress_end(b->progress);
+    b->progress = NULL;
+    return set_bad_aside(b, error);
+}
+
+static ff_status make_rig(build *b, ff_error *error)
+{
+    const ff_clip **clips = ff_calloc((size_t)b->good, sizeof *clips);
+    if (!clips) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
+    for (int i = 0; i < b->good; ++i)
+        clips[i] = &b->clips[i].clip;
+    ff_status status = ff_rig_from_clips(clips, b->good, &b->rig, error);
+    free(clips);
+    return status;
+}
+
+static ff_status fill(build *b, ff_error *error)
+{
+    ff_pack_content *content = &b->result->content;
+    ff_example_set set;
+    int *subject = ff_calloc((size_t)b->good, sizeof *subject);
+    ff_cycles *cycles = ff_calloc((size_t)b->good, sizeof *cycles);
+    ff_status status = FF_OK;
+    if (!subject || !cycles) status = ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
+    for (int i = 0; status == FF_OK && i < b->good; ++i) {
+        subject[i] = b->clips[i].subject;
+        cycles[i] = b->clips[i].cycles; /* shares the examples with the clip, which stays their owner */
+        for (int k = 0; k < cycles[i].count; ++k)
+            cycles[i].items[k].clip = i;
+    }
+    if (status == FF_OK) status = ff_examples_select(&b->rig, cycles, subject, b->good, &set, error);
+    free(subject);
+    free(cycles);
+    if (status != FF_OK) return status;
+    status = ff_pack_add_rig(content, &b->rig, error);
+    if (status == FF_OK) status = ff_pack_add_examples(content, &set, error);
+    if (status == FF_OK) status = ff_pack_add_clips(content, b->clips, b->good, b->settings->rate, error);
+    if (status == FF_OK)
+        status = ff_pack_add_meta(content, b->settings, b->clips, b->good, b->clips + b->good,
+                                  b->count - b->good, &set, error);
+    ff_example_set_free(&set);
+    return status;
+}
+
+static void keep_skipped(build *b)
+{
+    int count = b->count - b->good;
+    b->result->skipped = ff_calloc((size_t)count, sizeof *b->result->skipped);
+    for (int i = 0; b->result->skipped && i < count; ++i)
+        b->result->skipped[b->result->skipped_count++] = b->clips[b->good + i].error;
+}
+
+static ff_status run(build *b, ff_error *error)
+{
+    ff_status status = name_sources(b, error);
+    b->good = b->count;
+    if (status == FF_OK) status = run_stage(b, "reading", load_one, error);
+    if (status == FF_OK) status = make_rig(b, error);
+    if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
+    if (status == FF_OK) status = run_stage(b, "cutting", cut_one, error);
+    if (status == FF_OK) status = fill(b, error);
+    return status;
+}
+
+ff_status ff_build(const ff_catalogue *catalogue, const ff_build_settings *settings, ff_build_result *out,
+                   ff_error *error)
+{
+    memset(out, 0, sizeof *out);
+    build b = {.catalogue = catalogue, .settings = settings, .result = out};
+    ff_status status = ff_tasks_create(settings->threads, &b.tasks, error);
+    if (status == FF_OK) status = run(&b, error);
+    if (b.clips) keep_skipped(&b);
+    for (int i = 0; b.clips && i < b.count; ++i)
+        ff_build_clip_free(&b.clips[i]);
+    free(b.clips);
+    ff_tasks_destroy(b.tasks);
+    return status;
+}

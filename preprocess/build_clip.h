@@ -1,0 +1,37 @@
+/* build_clip.h - one clip on its way into a pack. */
+#ifndef FF_BUILD_CLIP_H
+#define FF_BUILD_CLIP_H
+
+#include "mocap/catalogue.h"
+#include "preprocess/cycles.h"
+#include "preprocess/steps.h"
+
+typedef struct ff_build_clip {
+    char *source; /* relative to the folder that holds all clips: never an absolute path */
+    const char *licence, *citation, *tags, *mode;
+    bool mirror;
+    int first_frame; /* of the file: frames before it were trimmed */
+    uint64_t hash;   /* XXH64 of the file's bytes; of the poses of a built-in clip */
+    int subject;     /* clips of one skeleton have the same number */
+
+    ff_status status; /* of the stages so far */
+    ff_error error;
+    ff_clip clip;
+    ff_plants plants;
+    ff_motion motion;
+    ff_actions actions;
+    ff_cycles cycles;
+} ff_build_clip;
+
+/* Stage 1: read the file (or generate built-in clip index), trim, find plants. */
+void ff_build_clip_load(ff_build_clip *clip, const ff_catalogue_entry *entry);
+void ff_build_clip_generate(ff_build_clip *clip, int index);
+/* Stage 2: onto the rig, actions and gait cycles. */
+void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig);
+
+void ff_build_clip_free(ff_build_clip *clip);
+
+/* Give clips with the same bone lengths the same subject number, counting from 0. */
+void ff_build_find_subjects(ff_build_clip *clips, int count);
+
+#endif

@@ -1,0 +1,255 @@
+#include "preprocess/build.h"
+
+#include "runtime/core/base/maths.h"
+#include "runtime/core/base/memory.h"
+#include "runtime/core/pack.h"
+#include "runtime/tool/command_line.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PROGRAM "footfall-pack"
+
+static const char *const mode_names[FF_MODE_COUNT] = {
+    [FF_MODE_IDLE] = "idle",           [FF_MODE_WALK_SHORT] = "walk short",
+    [FF_MODE_WALK_LONG] = "walk long", [FF_MODE_RUN] = "run",
+    [FF_MODE_JUMP] = "jump",           [FF_MODE_CLIMB] = "climb",
+    [FF_MODE_TURN] = "turn",           [FF_MODE_CROUCH] = "crouch",
+    [FF_MODE_START] = "start",         [FF_MODE_STOP] = "stop"};
+
+/* What a clip's poses amount to. */
+static double clip_seconds(const ff_pack *pack, const ff_pack_clip *clip)
+{
+    const ff_pack_stream *stream = &pack->streams[clip->stream];
+    return (stream->frame_count - 1) / (double)stream->rate;
+}
+
+static const char *example_kind(const ff_pack_example *example, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s%s",
+             example->flags & FF_EXAMPLE_IDLE ? "idle"
+             : example->gait                  ? "run"
+                                              : "walk",
+             example->flags & FF_EXAMPLE_MIRRORED ? ", mirrored" : "",
+             example->flags & FF_EXAMPLE_DERIVED ? ", made up" : "");
+    return text;
+}
+
+/* ------------------------------------------------------------------------------------------------- for people */
+
+static void print_clips(const ff_pack *pack)
+{
+    printf("\nclips\n  %-24s %7s %5s %6s %7s  %s\n", "name", "s", "Hz", "plants", "actions", "source");
+    for (uint32_t i = 0; i < pack->clip_count; ++i) {
+        const ff_pack_clip *clip = &pack->clips[i];
+        printf("  %-24s %7.2f %5.0f %6u %7u  %s\n", ff_pack_string(pack, clip->name),
+               clip_seconds(pack, clip), (double)clip->source_rate, clip->plant_count, clip->action_count,
+               ff_pack_string(pack, clip->source));
+    }
+}
+
+static void print_actions(const ff_pack *pack)
+{
+    printf("\nactions        as captured  mirrored  s (mean)  m (mean)\n");
+    for (uint32_t mode = 0; mode < FF_MODE_COUNT; ++mode) {
+        uint32_t plain = 0, mirrored = 0;
+        double seconds = 0.0, metres = 0.0;
+        for (uint32_t i = 0; i < pack->action_count; ++i) {
+            const ff_pack_action *action = &pack->actions[i];
+            if (action->mode != mode) continue;
+            ++*(action->flags & FF_ACTION_MIRRORED ? &mirrored : &plain);
+            seconds += (double)action->duration;
+            metres +=
+                ff_length2(ff_v2((double)action->root_displacement[0], (double)action->root_displacement[1]));
+        }
+        double all = plain + mirrored;
+        if (all > 0.0)
+            printf("  %-12s %11u %9u %9.2f %9.2f\n", mode_names[mode], plain, mirrored, seconds / all,
+                   metres / all);
+    }
+}
+
+static void print_examples(const ff_pack *pack)
+{
+    printf("\nexamples                                  forward   left   turn  cycle  seam\n"
+           "                                              m/s    m/s  deg/s      s    cm\n");
+    for (uint32_t i = 0; i < pack->example_count; ++i) {
+        const ff_pack_example *e = &pack->examples[i];
+        char kind[48];
+        printf("  %-38.38s %8.2f %6.2f %6.0f %6.2f %5.1f  %s\n", ff_pack_string(pack, e->name),
+               (double)e->v_forward, (double)e->v_left, (double)e->turn_rate / FF_DEG, (double)e->period,
+               100.0 * (double)e->seam, example_kind(e, kind, sizeof kind));
+    }
+}
+
+static void print_hull(const ff_pack *pack)
+{
+    printf("\nvelocity hull (forward, left; m/s):");
+    for (uint32_t i = 0; i < pack->hull_count; ++i)
+        printf(" (%.2f, %.2f)", (double)pack->hull[i].f, (double)pack->hull[i].l);
+    printf("\n");
+}
+
+/* Each distinct licence with its citation and how many clips are under it. */
+static void print_licences(const ff_pack *pack)
+{
+    printf("\nlicences\n");
+    for (uint32_t i = 0; i < pack->clip_count; ++i) {
+        const ff_pack_clip *clip = &pack->clips[i];
+        uint32_t same = 0, before = 0;
+        for (uint32_t k = 0; k < pack->clip_count; ++k) {
+            bool equal = pack->clips[k].licence == clip->licence && pack->clips[k].citation == clip->citation;
+            same += equal;
+            before += equal && k < i;
+        }
+        if (before) continue;
+        const char *licence = ff_pack_string(pack, clip->licence),
+                   *citation = ff_pack_string(pack, clip->citation);
+        printf("  %u clips: %s\n", same, *licence ? licence : "not stated");
+        if (*citation) printf("    %s\n", citation);
+    }
+}
+
+static void print_provenance(const ff_pack *pack)
+{
+    json_error_t place;
+    json_t *meta = json_loadb(pack->meta, (size_t)pack->meta_size, 0, &place);
+    if (!meta) {
+        printf("\nno provenance\n");
+        return;
+    }
+    const char *tool = json_string_value(json_object_get(meta, "tool"));
+    const char *version = json_string_value(json_object_get(meta, "version"));
+    printf("\nbuilt by %s %s", tool ? tool : "an unknown tool", version ? version : "");
+    size_t skipped = json_array_size(json_object_get(meta, "skipped"));
+    if (skipped) printf("; %zu clips were left out:", skipped);
+    printf("\n");
+    for (size_t i = 0; i < skipped; ++i) {
+        const json_t *entry = json_array_get(json_object_get(meta, "skipped"), i);
+        const char *source = json_string_value(json_object_get(entry, "source"));
+        const char *why = json_string_value(json_object_get(entry, "why"));
+        printf("  %s: %s\n", source ? source : "?", why ? why : "?");
+    }
+    json_decref(meta);
+}
+
+static void print_all(const ff_pack *pack, const char *path)
+{
+    printf("%s: %.1f MB, format %u, %u joints, %u clips, %u actions, %u examples\n", path,
+           1e-6 * (double)pack->size, FF_PACK_VERSION, pack->joint_count, pack->clip_count,
+           pack->action_count, pack->example_count);
+    print_clips(pack);
+    print_actions(pack);
+    print_examples(pack);
+    print_hull(pack);
+    print_licences(pack);
+    print_provenance(pack);
+}
+
+/* ----------------------------------------------------------------------------------------------------- as JSON */
+
+static json_t *clips_json(const ff_pack *pack)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < pack->clip_count; ++i) {
+        const ff_pack_clip *c = &pack->clips[i];
+        char hash[20];
+        snprintf(hash, sizeof hash, "%016" PRIx64, c->source_hash);
+        json_array_append_new(
+            list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:i, s:i, s:s, s:s}", "name",
+                            ff_pack_string(pack, c->name), "source", ff_pack_string(pack, c->source), "hash",
+                            hash, "seconds", clip_seconds(pack, c), "rate", (double)c->source_rate, "plants",
+                            (int)c->plant_count, "actions", (int)c->action_count, "licence",
+                            ff_pack_string(pack, c->licence), "tags", ff_pack_string(pack, c->tags)));
+    }
+    return list;
+}
+
+static json_t *actions_json(const ff_pack *pack)
+{
+    json_t *modes = json_object();
+    for (uint32_t mode = 0; mode < FF_MODE_COUNT; ++mode) {
+        int plain = 0, mirrored = 0;
+        for (uint32_t i = 0; i < pack->action_count; ++i)
+            if (pack->actions[i].mode == mode)
+                ++*(pack->actions[i].flags & FF_ACTION_MIRRORED ? &mirrored : &plain);
+        json_object_set_new(modes, mode_names[mode],
+                            json_pack("{s:i, s:i}", "captured", plain, "mirrored", mirrored));
+    }
+    return modes;
+}
+
+static json_t *examples_json(const ff_pack *pack)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < pack->example_count; ++i) {
+        const ff_pack_example *e = &pack->examples[i];
+        json_array_append_new(
+            list,
+            json_pack("{s:s, s:s, s:b, s:b, s:b, s:f, s:f, s:f, s:f, s:f, s:[f, f, f, f]}", "name",
+                      ff_pack_string(pack, e->name), "gait", e->gait ? "run" : "walk", "idle",
+                      (e->flags & FF_EXAMPLE_IDLE) != 0, "mirrored", (e->flags & FF_EXAMPLE_MIRRORED) != 0,
+                      "derived", (e->flags & FF_EXAMPLE_DERIVED) != 0, "v_forward", (double)e->v_forward,
+                      "v_left", (double)e->v_left, "turn_rate", (double)e->turn_rate, "period",
+                      (double)e->period, "seam", (double)e->seam, "key", (double)e->key[0], (double)e->key[1],
+                      (double)e->key[2], (double)e->key[3]));
+    }
+    return list;
+}
+
+static json_t *hull_json(const ff_pack *pack)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < pack->hull_count; ++i)
+        json_array_append_new(list, json_pack("[f, f]", (double)pack->hull[i].f, (double)pack->hull[i].l));
+    return list;
+}
+
+static void print_json(const ff_pack *pack, const char *path)
+{
+    json_error_t place;
+    json_t *meta = json_loadb(pack->meta, (size_t)pack->meta_size, 0, &place);
+    json_t *root = json_pack("{s:s, s:I, s:i, s:i, s:o, s:o, s:o, s:o, s:o}", "pack", path, "bytes",
+                             (json_int_t)pack->size, "joints", (int)pack->joint_count, "simplices",
+                             (int)pack->simplex_count, "clips", clips_json(pack), "actions",
+                             actions_json(pack), "examples", examples_json(pack), "hull", hull_json(pack),
+                             "provenance", meta ? meta : json_null());
+    if (root) json_dumpf(root, stdout, JSON_INDENT(1));
+    printf("\n");
+    json_decref(root);
+}
+
+int ff_inspect_command(int argc, char **argv)
+{
+    bool json = false;
+    ff_option options[] = {{.name = "--json", .help = "everything as JSON", .flag = &json}, {0}};
+    ff_command command = {
+        .program = PROGRAM,
+        .name = "inspect",
+        .arguments = "PACK",
+        .summary =
+            "say what is in a motion pack: clips, actions, examples, velocity hull, licences, provenance",
+        .options = options,
+        .min_operands = 1,
+        .max_operands = 1,
+    };
+    ff_operands operands = {.items = ff_calloc((size_t)argc + 1, sizeof *operands.items)};
+    if (!operands.items) return FF_EXIT_FAILURE;
+    int result = ff_command_parse(&command, argc, argv, &operands);
+    if (result < 0) {
+        ff_pack *pack;
+        ff_error error;
+        if (ff_pack_open(operands.items[0], &pack, &error) == FF_OK) {
+            (json ? print_json : print_all)(pack, operands.items[0]);
+            ff_pack_close(pack);
+            result = FF_EXIT_OK;
+        } else {
+            result = ff_command_fail(PROGRAM, &error);
+        }
+    }
+    free(operands.items);
+    return result;
+}

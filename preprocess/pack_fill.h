@@ -1,0 +1,21 @@
+/* pack_fill.h - from what was found in the clips to the records of a pack. */
+#ifndef FF_PACK_FILL_H
+#define FF_PACK_FILL_H
+
+#include "preprocess/build.h"
+#include "preprocess/build_clip.h"
+#include "preprocess/examples.h"
+
+/* Joints and points of the rig. */
+ff_status ff_pack_add_rig(ff_pack_content *content, const ff_rig *rig, ff_error *error);
+/* Examples with their streams and feet, the simplices of each gait and the velocity hull. Must come before clips. */
+ff_status ff_pack_add_examples(ff_pack_content *content, const ff_example_set *set, ff_error *error);
+/* Clips with streams, tracks, plants and actions; then the mirrored actions of all. */
+ff_status ff_pack_add_clips(ff_pack_content *content, const ff_build_clip *clips, int count, double rate,
+                            ff_error *error);
+/* Provenance: versions, settings, clips, what was rejected and skipped. */
+ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *settings,
+                           const ff_build_clip *clips, int count, const ff_build_clip *skipped,
+                           int skipped_count, const ff_example_set *set, ff_error *error);
+
+#endif

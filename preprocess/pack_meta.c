@@ -1,0 +1,63 @@
+/* What a pack says of its own making, as JSON. Nothing in it depends on when, where or by whom it was built. */
+#include "preprocess/pack_fill.h"
+#include "runtime/core/base/fail.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static json_t *rejections_of(const ff_build_clip *clip)
+{
+    json_t *list = json_array();
+    double dt = clip->motion.frame_time;
+    for (int i = 0; i < clip->actions.rejection_count; ++i) {
+        const ff_rejection *r = &clip->actions.rejections[i];
+        json_array_append_new(list,
+                              json_pack("{s:f, s:f, s:s}", "from", (r->first_frame + clip->first_frame) * dt,
+                                        "to", (r->last_frame + clip->first_frame) * dt, "why", r->reason));
+    }
+    return list;
+}
+
+static json_t *clip_entry(const ff_build_clip *clip)
+{
+    char hash[20];
+    snprintf(hash, sizeof hash, "%016" PRIx64, clip->hash);
+    json_t *entry =
+        json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:b, s:i, s:f, s:i, s:o}", "name",
+                  clip->clip.name, "source", clip->source, "hash", hash, "licence", clip->licence, "citation",
+                  clip->citation, "tags", clip->tags, "mode", clip->mode, "first_frame", clip->first_frame,
+                  "mirror", clip->mirror ? 1 : 0, "subject", clip->subject, "unit_m", clip->clip.unit_m,
+                  "frames", clip->clip.frame_count, "rejected", rejections_of(clip));
+    if (entry && clip->clip.warning_count > 0)
+        json_object_set_new(entry, "warning", json_string(clip->clip.warning));
+    return entry;
+}
+
+static json_t *skipped_entry(const ff_build_clip *clip)
+{
+    return json_pack("{s:s, s:i, s:i, s:s}", "source", clip->source, "line", (int)clip->error.line, "column",
+                     (int)clip->error.column, "why", clip->error.message);
+}
+
+ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *settings,
+                           const ff_build_clip *clips, int count, const ff_build_clip *skipped,
+                           int skipped_count, const ff_example_set *set, ff_error *error)
+{
+    json_t *clip_list = json_array(), *skipped_list = json_array();
+    for (int i = 0; i < count; ++i)
+        json_array_append_new(clip_list, clip_entry(&clips[i]));
+    for (int i = 0; i < skipped_count; ++i)
+        json_array_append_new(skipped_list, skipped_entry(&skipped[i]));
+    json_t *root = json_pack("{s:s, s:s, s:{s:f, s:b}, s:{s:i, s:i}, s:o, s:o}", "tool", "footfall-pack",
+                             "version", FF_VERSION, "settings", "rate", settings->rate, "strict",
+                             settings->strict ? 1 : 0, "examples", "base_subject", set->base, "candidates",
+                             set->candidates, "clips", clip_list, "skipped", skipped_list);
+    char *text = root ? json_dumps(root, JSON_INDENT(1)) : NULL;
+    json_decref(root);
+    ff_status status = text ? ff_pack_set_meta(content, text, error)
+                            : ff_fail(error, FF_ERR_NO_MEMORY, "out of memory describing the pack");
+    free(text);
+    return status;
+}
