@@ -173,8 +173,8 @@ ff_status ff_example_mirror(const ff_rig *rig, const ff_example *example, ff_exa
     const float *key = example->record.key;
     double start = (double)key[2]; /* the right contact becomes the left one */
     out->record.flags ^= FF_EXAMPLE_MIRRORED;
-    out->record.v_left = -example->record.v_left;
-    out->record.turn_rate = -example->record.turn_rate;
+    out->record.v_left = 0.0f - example->record.v_left; /* no negative zero */
+    out->record.turn_rate = 0.0f - example->record.turn_rate;
     out->record.key[1] = (float)phase_after((double)key[3], start);
     out->record.key[2] = (float)phase_after((double)key[0], start);
     out->record.key[3] = (float)phase_after((double)key[1], start);
@@ -199,9 +199,9 @@ ff_status ff_example_reverse(const ff_rig *rig, const ff_example *example, ff_ex
     const float *key = example->record.key;
     double start = (double)key[3]; /* where the left foot lifted it now lands */
     out->record.flags |= FF_EXAMPLE_DERIVED;
-    out->record.v_forward = -example->record.v_forward;
-    out->record.v_left = -example->record.v_left;
-    out->record.turn_rate = -example->record.turn_rate;
+    out->record.v_forward = 0.0f - example->record.v_forward;
+    out->record.v_left = 0.0f - example->record.v_left;
+    out->record.turn_rate = 0.0f - example->record.turn_rate;
     out->record.key[1] = (float)phase_after(start, (double)key[2]);
     out->record.key[2] = (float)phase_after(start, (double)key[1]);
     out->record.key[3] = (float)phase_after(start, (double)key[0]);

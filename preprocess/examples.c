@@ -12,8 +12,8 @@
 #define SEAM_STRAIGHT 0.05
 #define SEAM_OTHER 0.08
 #define WANDER 0.2
-#define WANDER_COST 0.15   /* m per rad */
-#define STRANGER_COST 0.02 /* m: another person's cycle is taken where the base person has none */
+#define WANDER_COST 0.15  /* m per rad */
+#define STRANGER_COST 1.0 /* m, far more than any seam: others are taken where the base person has none */
 /* Metres per second that 1 rad/s counts for, as the runtime measures rates. */
 #define TURN_SCALE 0.5
 /* Examples are at least this far apart (m/s). */
@@ -86,8 +86,8 @@ static double cost_of(const ff_example *e)
     return (double)e->record.seam + WANDER_COST * e->wander;
 }
 
-/* Take candidates in order of cost, each one that is spacing away from all taken before. chosen receives their
- * indices; subject < 0 = everybody's. */
+/* Take candidates in order of cost, each one that is spacing away from all taken before (a stranger half as much
+ * again). chosen receives their indices; subject < 0 = everybody's. */
 static int choose(const candidate *list, int count, int subject, uint32_t gait, double spacing, int limit,
                   int *chosen)
 {
@@ -99,13 +99,14 @@ static int choose(const candidate *list, int count, int subject, uint32_t gait, 
             continue;
         bool apart = true;
         for (int k = 0; k < taken && apart; ++k)
-            apart = distance(point_of(list[i].example), point_of(list[chosen[k]].example)) >= spacing;
+            apart = distance(point_of(list[i].example), point_of(list[chosen[k]].example)) >=
+                    (list[i].cost >= STRANGER_COST ? 1.5 : 1.0) * spacing;
         if (apart) chosen[taken++] = i;
     }
     return taken;
 }
 
-/* The subject whose walks cover most rates. */
+/* The subject whose forward walks cover most rates; straight ones, which people walk most, count twice. */
 static int find_base(const candidate *list, int count, int *chosen)
 {
     int best = -1, most = 0;
@@ -114,9 +115,14 @@ static int find_base(const candidate *list, int count, int *chosen)
         for (int k = 0; k < i && !seen; ++k)
             seen = list[k].subject == list[i].subject;
         if (seen) continue;
-        int covered = choose(list, count, list[i].subject, FF_GAIT_WALK, SPACING_WALK, count, chosen);
-        bool smaller_name = covered == most && list[i].subject < best;
-        if (covered > most || smaller_name) most = covered, best = list[i].subject;
+        int taken = choose(list, count, list[i].subject, FF_GAIT_WALK, SPACING_WALK, count, chosen),
+            covered = 0;
+        for (int k = 0; k < taken; ++k) {
+            const ff_example *e = list[chosen[k]].example;
+            if (e->record.v_forward > 0.3f) covered += is_straight(e) ? 2 : 1;
+        }
+        bool earlier = covered == most && list[i].subject < best;
+        if (covered > most || earlier) most = covered, best = list[i].subject;
     }
     return best;
 }

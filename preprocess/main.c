@@ -1,8 +1,11 @@
 /* footfall-pack - makes motion packs from clips, and shows what is in clips and packs. */
+#include "preprocess/build.h"
 #include "preprocess/plants_command.h"
 #include "runtime/tool/command_line.h"
 
 static const ff_subcommand commands[] = {
+    {"build", "make a motion pack from clips", ff_build_command},
+    {"inspect", "say what is in a motion pack", ff_inspect_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
     {0},
 };
