@@ -245,9 +245,8 @@ int ff_run_main(int argc, char **argv)
     if (status < 0) {
         given.scene = operands.items[0];
         if (!given.pack || !given.out) {
-            fprintf(stderr, PROGRAM ": %s is missing; try '" PROGRAM " run --help'\n",
-                    given.pack ? "--out FOLDER" : "--pack FILE");
-            status = FF_EXIT_USAGE;
+            status =
+                ff_command_misuse(&command, "%s is missing", given.pack ? "--out FOLDER" : "--pack FILE");
         } else {
             status = run_scene(&given);
         }

@@ -18,10 +18,7 @@ static void print_full_name(FILE *to, const ff_command *command)
     fprintf(to, "%s%s%s", command->program, command->name[0] ? " " : "", command->name);
 }
 
-static int usage_error(const ff_command *command, const char *format, ...)
-    __attribute__((__format__(__printf__, 2, 3)));
-
-static int usage_error(const ff_command *command, const char *format, ...)
+int ff_command_misuse(const ff_command *command, const char *format, ...)
 {
     va_list arguments;
     fprintf(stderr, "%s: ", command->program);
@@ -46,8 +43,8 @@ static int unknown_option(const ff_command *command, const char *word, size_t le
     known[count++] = "--version";
     known[count] = NULL;
     const char *near = ff_nearest(given, known);
-    if (near) return usage_error(command, "unknown option '%s'; did you mean '%s'?", given, near);
-    return usage_error(command, "unknown option '%s'", given);
+    if (near) return ff_command_misuse(command, "unknown option '%s'; did you mean '%s'?", given, near);
+    return ff_command_misuse(command, "unknown option '%s'", given);
 }
 
 /* ----------------------------------------------------------------------------------------------- --help */
@@ -99,10 +96,10 @@ static int set_number(const ff_command *command, const ff_option *option, const 
     char *end = NULL;
     double number = strtod(value, &end);
     if (end == value || *end || !isfinite(number))
-        return usage_error(command, "%s needs a number, not '%.60s'", option->name, value);
+        return ff_command_misuse(command, "%s needs a number, not '%.60s'", option->name, value);
     if (number < option->low || number > option->high)
-        return usage_error(command, "%s is %s; expected %g to %g", option->name, value, option->low,
-                           option->high);
+        return ff_command_misuse(command, "%s is %s; expected %g to %g", option->name, value, option->low,
+                                 option->high);
     *option->number = number;
     return GO_ON;
 }
@@ -113,10 +110,10 @@ static int set_integer(const ff_command *command, const ff_option *option, const
     errno = 0;
     long long number = strtoll(value, &end, 10);
     if (end == value || *end)
-        return usage_error(command, "%s needs a whole number, not '%.60s'", option->name, value);
+        return ff_command_misuse(command, "%s needs a whole number, not '%.60s'", option->name, value);
     if (errno == ERANGE || (double)number < option->low || (double)number > option->high)
-        return usage_error(command, "%s is %.60s; expected %.0f to %.0f", option->name, value, option->low,
-                           option->high);
+        return ff_command_misuse(command, "%s is %.60s; expected %.0f to %.0f", option->name, value,
+                                 option->low, option->high);
     *option->integer = number;
     return GO_ON;
 }
@@ -125,7 +122,7 @@ static int set_value(const ff_command *command, const ff_option *option, const c
 {
     if (option->number) return set_number(command, option, value);
     if (option->integer) return set_integer(command, option, value);
-    if (!*value) return usage_error(command, "%s needs a value that is not empty", option->name);
+    if (!*value) return ff_command_misuse(command, "%s needs a value that is not empty", option->name);
     *option->text = value;
     return GO_ON;
 }
@@ -153,14 +150,14 @@ static int take_option(const ff_command *command, int argc, char **argv, int *at
         return unknown_option(command, word, length);
     }
     if (option->flag) {
-        if (equals) return usage_error(command, "%s takes no value", option->name);
+        if (equals) return ff_command_misuse(command, "%s takes no value", option->name);
         *option->flag = true;
         return GO_ON;
     }
     if (equals) return set_value(command, option, equals + 1);
     if (*at + 1 >= argc)
-        return usage_error(command, "%s needs a value (%s)", option->name,
-                           option->value_name ? option->value_name : "VALUE");
+        return ff_command_misuse(command, "%s needs a value (%s)", option->name,
+                                 option->value_name ? option->value_name : "VALUE");
     return set_value(command, option, argv[++*at]);
 }
 
@@ -179,9 +176,10 @@ int ff_command_parse(const ff_command *command, int argc, char **argv, ff_operan
         }
     }
     if (operands->count < command->min_operands)
-        return usage_error(command, "expected %s", command->arguments);
+        return ff_command_misuse(command, "expected %s", command->arguments);
     if (command->max_operands >= 0 && operands->count > command->max_operands)
-        return usage_error(command, "unexpected argument '%.80s'", operands->items[command->max_operands]);
+        return ff_command_misuse(command, "unexpected argument '%.80s'",
+                                 operands->items[command->max_operands]);
     return GO_ON;
 }
 
@@ -221,8 +219,8 @@ int ff_command_dispatch(const char *program, const char *summary, const ff_subco
     known[count] = NULL;
     ff_command nobody = {.program = program, .name = ""};
     const char *near = ff_nearest(name, known);
-    if (near) return usage_error(&nobody, "unknown command '%.60s'; did you mean '%s'?", name, near);
-    return usage_error(&nobody, "unknown command '%.60s'", name);
+    if (near) return ff_command_misuse(&nobody, "unknown command '%.60s'; did you mean '%s'?", name, near);
+    return ff_command_misuse(&nobody, "unknown command '%.60s'", name);
 }
 
 int ff_command_fail(const char *program, const ff_error *error)

@@ -2,7 +2,7 @@
 #ifndef FF_COMMAND_LINE_H
 #define FF_COMMAND_LINE_H
 
-#include "runtime/footfall.h"
+#include "runtime/core/base/fail.h"
 
 #include <stdbool.h>
 
@@ -40,6 +40,10 @@ typedef struct ff_operands {
 /* Parse argv[0..argc) (after the command's own name). --help and --version are answered here. Returns -1 to go on,
  * else the exit status to leave with (a usage error was printed to stderr, with the nearest known option). */
 int ff_command_parse(const ff_command *command, int argc, char **argv, ff_operands *operands);
+
+/* A usage error that parsing cannot see (an option is missing, two exclude each other): prints "footfall-pack: ...; try
+ * 'footfall-pack build --help'" to stderr and returns FF_EXIT_USAGE. */
+int ff_command_misuse(const ff_command *command, const char *format, ...) FF_PRINTF(2, 3);
 
 /* A program of several commands. run receives what follows the command's name and returns the exit status. */
 typedef struct ff_subcommand {
