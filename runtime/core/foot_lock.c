@@ -77,6 +77,7 @@ void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot)
     double start, length;
     ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
     state->planted = 0;
+    state->from_pitch = state->pitch - ff_sample_foot(scene->space, scene->cursor, foot).pitch;
     state->from = subtract(state->now, ff_foot_of_clip(scene, foot));
     state->slope = standing_slope(clip_foot_speed(scene, foot, scene->phase, 0.0));
     state->elapsed = 0.0;
@@ -169,15 +170,17 @@ static void replan(ff_gait_foot *state, ff_foothold wanted, double progress, dou
     state->lock.height = wanted.height;
 }
 
-/* The ball's least height: an arc over the floor, and the heel never under it when the toes point up. */
-static double least_height(const ff_body_frame *body, int foot, double progress, double pitch)
+/* Raise the ball to an arc over the floor, and the heel over the floor when the toes point up. */
+static void keep_clear(const ff_body_frame *body, ff_gait_foot *state, int foot)
 {
-    double arc = 4.0 * progress * (1.0 - progress), sine, cosine;
-    double least = body->ball_rest + LEAST_LIFT * arc * arc;
-    ff_sincos(pitch, &sine, &cosine);
+    double arc = 4.0 * state->progress * (1.0 - state->progress), sine, cosine;
+    double least = body->ball_rest + LEAST_LIFT * arc * arc, below = least - state->now.height;
+    double round = 0.01 * arc; /* m: a rounded corner where the arc takes over, so that the knee feels none */
+    state->now.height += 0.5 * (below + sqrt(below * below + round * round));
+    ff_sincos(state->pitch, &sine, &cosine);
     int ankle = FF_JOINT_ANKLE_L + foot * FF_JOINT_LEG_STRIDE;
     ff_vec3 heel = ff_sub3(body->heel[foot], body->offset[ankle + 1]);
-    return ff_max(least, body->ball_rest + heel.y * (1.0 - cosine) - heel.z * sine);
+    state->now.height = ff_max(state->now.height, body->ball_rest + heel.y * (1.0 - cosine) - heel.z * sine);
 }
 
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
@@ -212,7 +215,7 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
                                               slope.height * span);
     state->now.yaw =
         clip.yaw + hermite(s, state->from.yaw, state->slope.yaw * span, to.yaw, slope.yaw * span);
-    state->pitch = sample.pitch;
-    state->now.height = ff_max(state->now.height, least_height(&scene->space->body, foot, s, sample.pitch));
+    state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
+    keep_clear(&scene->space->body, state, foot);
     return false;
 }

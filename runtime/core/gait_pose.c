@@ -2,6 +2,8 @@
 #include "runtime/core/gait_hips.h"
 #include "runtime/core/leg_ik.h"
 
+#define TOE_CLEARANCE 0.015 /* m, over the rest height of the toe tip (gait facts: people 1.4 to 2.3 cm) */
+
 /* Blended local rotations of everything but the hips, the idle pose mixed in while standing. */
 static void sample_joints(const ff_blend_space *space, const ff_gait *gait, const ff_cursor *cursor,
                           ff_quat *rotations)
@@ -50,12 +52,13 @@ static double pitch_in_reach(const ff_body_frame *body, const ff_gait_foot *stat
     return low;
 }
 
-/* Toes bend up where the floor is in their way. */
+/* Toes bend up where the floor is in their way: at push-off, and in mid swing to keep clear of it. */
 static ff_quat toes_on_floor(const ff_body_frame *body, const ff_gait_foot *state, int foot,
                              ff_quat foot_turn, ff_quat toes)
 {
     ff_vec3 tip = ff_quat_rotate(foot_turn, ff_quat_rotate(toes, body->toe[foot]));
-    double least = body->ball_rest + body->toe[foot].y - state->now.height;
+    double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
+    double least = body->ball_rest + body->toe[foot].y + TOE_CLEARANCE * arc * arc - state->now.height;
     if (tip.y >= least) return toes;
     double ahead = tip.z * ff_cos(state->now.yaw) + tip.x * ff_sin(state->now.yaw);
     double length = sqrt(ahead * ahead + tip.y * tip.y);

@@ -17,6 +17,7 @@ typedef struct ff_gait_foot {
     ff_foothold from;  /* in swing: offset from the clip's foot when it left the ground */
     ff_foothold slope; /* 1/s, of that offset */
     double pitch;      /* rad, toes up + */
+    double from_pitch; /* rad, in swing: offset from the clip's pitch when it left the ground */
     double elapsed;    /* s, of the swing */
     double progress;   /* 0 to 1 of the swing */
     double phase_left; /* u, to the landing */

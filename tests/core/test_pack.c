@@ -1,5 +1,6 @@
 /* The loader against damage: whatever it accepts can be used, whatever it refuses it refuses with a place. */
 #define _GNU_SOURCE
+#include "tests/check.h"
 #include "tests/core/pack_seal.h"
 #include "tests/core/pack_use.h"
 #include "tests/core/walker_pack.h"

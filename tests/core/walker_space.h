@@ -3,6 +3,7 @@
 #define FF_TEST_WALKER_SPACE_H
 
 #include "runtime/core/blend.h"
+#include "tests/check.h"
 #include "tests/core/walker_pack.h"
 
 typedef struct ff_walker_space {
