@@ -1,16 +1,10 @@
 #include "mocap/generator/feet.h"
 #include "mocap/generator/skeleton.h"
 
-#define CLEARANCE 0.020    /* m, lowest point of the sole in mid swing (gait facts: 1.1 to 2.3 cm) */
+#define CLEARANCE 0.022    /* m, lowest point of the sole in mid swing (gait facts: 1.1 to 2.3 cm) */
 #define ANKLES_APART 0.088 /* m, sideways as they pass (gait facts: 8.7 to 9.4 cm) */
+#define SLAP 0.9           /* how fast the sole starts to come down, of pitch over the time until flat */
 #define INSTANT 1e-5       /* s, for one-sided differences */
-
-/* Cubic Hermite basis. */
-static double hermite(double u, double p0, double p1, double m0, double m1)
-{
-    double v = 1.0 - u;
-    return p0 * v * v * (1.0 + 2.0 * u) + p1 * u * u * (3.0 - 2.0 * u) + m0 * u * v * v - m1 * u * u * v;
-}
 
 /* ----------------------------------------------------------------------------------------------- one foot */
 
@@ -37,10 +31,11 @@ static ff_foot_pose standing(const ff_footing *footing, double t)
     ff_foot_pose pose = {.yaw = footing->yaw};
     if (t < footing->flat) {
         double u = (t - footing->contact) / (footing->flat - footing->contact);
-        pose.pitch = footing->pitch_contact * hermite(u, 1.0, 0.0, -0.9, 0.0);
+        pose.pitch = footing->pitch_contact * ff_hermite(u, 1.0, 0.0, -SLAP, 0.0);
     } else if (t > footing->heel_off) {
         double u = (t - footing->heel_off) / (footing->release - footing->heel_off);
-        double risen = hermite(u, 0.0, 1.0, 0.0, 1.6); /* slow start, as measured from heel off to toe off */
+        double risen =
+            ff_hermite(u, 0.0, 1.0, 0.0, 1.6); /* slow start, as measured from heel off to toe off */
         pose.pitch = footing->pitch_release * risen;
         pose.yaw += footing->twist * risen;
     }
@@ -77,6 +72,23 @@ typedef struct ff_swing {
     double start, duration;
 } ff_swing;
 
+/* The foot an instant before contact: its heel comes with what speed it has left in the recordings, forward and a
+ * little downward, and the sole already turns down as it will after contact. */
+static ff_foot_pose arriving(const ff_plan *plan, const ff_footing *next, const ff_foot_pose *landing)
+{
+    ff_root root = ff_plan_root(plan, next->contact);
+    ff_vec2 travel = ff_from_frame2(ff_fwd2(root.heading), ff_v2(root.forward, root.left));
+    double keep = plan->style.run ? 0.36 : 0.34, speed = ff_length2(travel);
+    double fall = plan->style.run ? 0.45 : 0.02 + 0.08 * speed;
+    ff_foot_pose almost = *landing;
+    if (next->flat > next->contact)
+        almost.pitch += INSTANT * SLAP * next->pitch_contact / (next->flat - next->contact);
+    ff_vec3 heel = ff_foot_heel(landing);
+    heel = ff_sub3(heel, ff_ground(ff_scale2(travel, keep * INSTANT), -fall * INSTANT));
+    almost.ankle = ff_sub3(heel, ff_quat_rotate(ff_foot_rotation(&almost), ankle_to_heel));
+    return almost;
+}
+
 static void swing_ends(const ff_plan *plan, const ff_footing *last, const ff_footing *next, ff_swing *swing)
 {
     double off = last->release, on = next->contact;
@@ -85,29 +97,29 @@ static void swing_ends(const ff_plan *plan, const ff_footing *last, const ff_foo
     ff_foot_pose leaving = standing(last, off), before = standing(last, off - INSTANT);
     swing->from = to_local(plan, &leaving, off);
     ff_local_foot was = to_local(plan, &before, off - INSTANT);
-    /* the heel arrives with what speed it has left in the recordings: forward, and a little downward */
-    ff_foot_pose landing = standing(next, on), almost = landing;
-    ff_root root = ff_plan_root(plan, on);
-    ff_vec2 travel = ff_from_frame2(ff_fwd2(root.heading), ff_v2(root.forward, root.left));
-    double keep = plan->style.run ? 0.36 : 0.32;
-    almost.ankle = ff_sub3(almost.ankle, ff_ground(ff_scale2(travel, keep * INSTANT), 0.0));
-    almost.ankle.y += INSTANT * (plan->style.run ? 0.45 : 0.06 + 0.10 * ff_length2(travel));
+    ff_foot_pose landing = standing(next, on), almost = arriving(plan, next, &landing);
     swing->to = to_local(plan, &landing, on);
-    ff_local_foot arriving = to_local(plan, &almost, on - INSTANT);
+    ff_local_foot next_to_last = to_local(plan, &almost, on - INSTANT);
     for (int i = 0; i < 5; ++i) {
         swing->from_rate.v[i] = (swing->from.v[i] - was.v[i]) / INSTANT;
-        swing->to_rate.v[i] = (swing->to.v[i] - arriving.v[i]) / INSTANT;
+        swing->to_rate.v[i] = (swing->to.v[i] - next_to_last.v[i]) / INSTANT;
     }
-    swing->to_rate.v[3] = 0.0; /* the pitch peaks at contact */
 }
 
-/* shape + the cubic that makes both ends and their rates right. */
+/* shape + what makes both ends and their rates right. What the rates lack is made up early (the foot leaves faster than
+ * it rolls) and late, so that the measured shape rules in between. */
 static double fitted(const ff_swing *swing, int i, double u, double shape, const double end[2],
                      const double slope[2])
 {
-    double t = swing->duration;
-    return shape + hermite(u, swing->from.v[i] - end[0], swing->to.v[i] - end[1],
-                           swing->from_rate.v[i] * t - slope[0], swing->to_rate.v[i] * t - slope[1]);
+    const double early = 0.50, late = 0.60;
+    double t = swing->duration, value = shape;
+    value += ff_hermite(u, swing->from.v[i] - end[0], swing->to.v[i] - end[1], 0.0, 0.0);
+    if (u < early)
+        value += early * ff_hermite(u / early, 0.0, 0.0, swing->from_rate.v[i] * t - slope[0], 0.0);
+    if (u > 1.0 - late)
+        value +=
+            late * ff_hermite((u - 1.0 + late) / late, 0.0, 0.0, 0.0, swing->to_rate.v[i] * t - slope[1]);
+    return value;
 }
 
 /* A measured curve over the swing: value at u, values and slopes (per unit of u) at its ends, all times scale. */
@@ -122,6 +134,32 @@ static double swing_shape(const ff_fourier *curve, double stance, double u, doub
     return scale * ff_fourier_at(curve, stance + u * span);
 }
 
+/* Both feet in the air: no measured shape, the body's flight carries them. */
+static ff_foot_pose leaping(const ff_plan *plan, const ff_swing *swing, const ff_footing *next, double t)
+{
+    const double none[2] = {0.0, 0.0};
+    double u = (t - swing->start) / swing->duration;
+    ff_local_foot at;
+    for (int i = 0; i < 5; ++i)
+        at.v[i] = fitted(swing, i, u, 0.0, none, none);
+    at.v[2] += 4.0 * next->lift * u * (1.0 - u) * ff_smooth(4.0 * u) * ff_smooth(4.0 * (1.0 - u));
+    ff_root root = ff_plan_root(plan, t);
+    ff_foot_pose pose = {.yaw = at.v[4] + root.heading, .pitch = at.v[3], .swinging = true};
+    pose.ankle = ff_ground(ff_plan_to_world(&root, ff_v2(at.v[0], at.v[1])), at.v[2]);
+    pose.toe_extension = ff_lerp(-swing->from.v[3], -swing->to.v[3], u) * (1.0 - 2.4 * u * (1.0 - u));
+    return pose;
+}
+
+/* The toes leave last: until toe off they point at where their tip stood. */
+static double dragged_toes(const ff_footing *last, const ff_foot_pose *pose)
+{
+    ff_vec3 ball = ff_foot_ball(pose);
+    ff_vec2 fwd = ff_fwd2(last->yaw + last->twist);
+    ff_vec2 to_tip = ff_sub2(ff_madd2(last->ball, fwd, FF_BODY_TOES), ff_plane(ball));
+    double along = ff_max(0.25 * FF_BODY_TOES, ff_dot2(to_tip, fwd));
+    return -ff_atan2(ball.y - FF_BODY_BALL_HEIGHT, along) - pose->pitch;
+}
+
 static ff_foot_pose swinging(const ff_plan *plan, int foot, const ff_footing *last, const ff_footing *next,
                              double t)
 {
@@ -129,12 +167,13 @@ static ff_foot_pose swinging(const ff_plan *plan, int foot, const ff_footing *la
     swing_ends(plan, last, next, &swing);
     double u = (t - swing.start) / swing.duration, bump = ff_sin(FF_PI * u);
     bump *= bump;
+    if (plan->jump) return leaping(plan, &swing, next, t);
     ff_gait_set set;
     double speed = 0.5 * (last->speed + next->speed);
     ff_gait_set_at(0, ff_max(speed, 1.0), plan->style.run, &set);
-    double stance = ff_usual_stance(ff_clamp(speed, 1.0, 1.7), false) - 0.02;
-    if (plan->style.run) stance = 0.337;
-    double size = ff_min(1.0, -last->pitch_release / ((plan->style.run ? 46.0 : 54.0) * FF_DEG));
+    double stance = ff_usual_stance(ff_clamp(speed, 1.0, 1.7), false) - 0.055;
+    if (plan->style.run) stance = 0.265;
+    double size = ff_min(1.0, -last->pitch_release / ((plan->style.run ? 42.0 : 44.0) * FF_DEG));
     double end[2], slope[2];
     ff_local_foot at;
     /* along the ground: the measured fore-aft progress, applied to whatever way the foot has to go */
@@ -160,6 +199,8 @@ static ff_foot_pose swinging(const ff_plan *plan, int foot, const ff_footing *la
     double bent = -last->pitch_release, landing = 0.3 * next->pitch_contact;
     pose.toe_extension = ff_lerp(bent, 8.0 * FF_DEG, ff_smooth(u / 0.35));
     pose.toe_extension = ff_lerp(pose.toe_extension, landing, ff_smooth((u - 0.6) / 0.4));
+    double leave = ff_smooth((t - last->toe_off + 0.01) / 0.09);
+    if (leave < 1.0) pose.toe_extension = ff_lerp(dragged_toes(last, &pose), pose.toe_extension, leave);
     return pose;
 }
 
@@ -195,13 +236,13 @@ static double too_close(const ff_plan *plan, int foot, const ff_foot_pose *pose,
 
 static void clear_swing(const ff_plan *plan, int foot, const ff_footing *last, ff_footing *next)
 {
-    double lift = 0.0, aside = 0.012;
+    double lift = plan->style.run ? 0.0 : -0.03, aside = 0.012;
     next->lift = next->aside = 0.0;
-    for (int k = 20; k <= 70; k += 2) {
+    for (int k = 20; k <= 76; k += 2) {
         double u = k / 100.0, bump = ff_sin(FF_PI * u), t = ff_lerp(last->release, next->contact, u);
         ff_foot_pose pose = swinging(plan, foot, last, next, t);
         bump *= bump;
-        if (k >= 25 && k <= 65) lift = ff_max(lift, (CLEARANCE - sole_height(&pose)) / bump);
+        if (k >= 40 && k <= 70) lift = ff_max(lift, (CLEARANCE - sole_height(&pose)) / bump);
         aside = ff_max(aside, too_close(plan, foot, &pose, t) / bump);
     }
     next->lift = ff_min(lift, 0.10);
@@ -210,6 +251,7 @@ static void clear_swing(const ff_plan *plan, int foot, const ff_footing *last, f
 
 void ff_feet_clear(ff_plan *plan)
 {
+    if (plan->jump) return;
     for (int foot = 0; foot < 2; ++foot)
         for (int i = 1; i < plan->footing_count[foot]; ++i)
             clear_swing(plan, foot, &plan->footings[foot][i - 1], &plan->footings[foot][i]);

@@ -151,6 +151,7 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
     ff_status status = ff_body_clip(recipe->info.name, frames, &out->clip, error);
     if (status == FF_OK) {
         bool done = ff_plan_finish(plan);
+        if (done && recipe->adjust) recipe->adjust(plan);
         if (done) ff_feet_clear(plan);
         done = done && ff_pose_clip(plan, &out->clip) && collect_plants(plan, frames, out);
         if (!done) status = ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the clip %s", recipe->info.name);

@@ -11,6 +11,12 @@
 
 /* ------------------------------------------------------------------------------------------ interpolation */
 
+double ff_hermite(double u, double p0, double p1, double m0, double m1)
+{
+    double v = 1.0 - u;
+    return p0 * v * v * (1.0 + 2.0 * u) + p1 * u * u * (3.0 - 2.0 * u) + m0 * u * v * v - m1 * u * u * v;
+}
+
 static double slope_at(const double *x, const double *y, int count, int i)
 {
     if (i == 0 || i == count - 1) return 0.0;
@@ -28,10 +34,31 @@ double ff_monotone(const double *x, const double *y, int count, double at)
     int i = 0;
     while (at > x[i + 1])
         ++i;
-    double h = x[i + 1] - x[i], u = (at - x[i]) / h, v = 1.0 - u;
+    double h = x[i + 1] - x[i], u = (at - x[i]) / h;
     double m0 = slope_at(x, y, count, i) * h, m1 = slope_at(x, y, count, i + 1) * h;
-    return y[i] * v * v * (1.0 + 2.0 * u) + y[i + 1] * u * u * (3.0 - 2.0 * u) + m0 * u * v * v -
-           m1 * u * u * v;
+    return ff_hermite(u, y[i], y[i + 1], m0, m1);
+}
+
+ff_gesture ff_plan_gesture(const ff_plan *plan, double t)
+{
+    ff_gesture now = {.t = t};
+    int n = plan->gesture_count, i = 0;
+    if (n < 2) return now;
+    const ff_gesture *g = plan->gestures;
+    double x[FF_PLAN_MAX_KNOTS], bend[FF_PLAN_MAX_KNOTS], arms[FF_PLAN_MAX_KNOTS];
+    for (int k = 0; k < n; ++k) {
+        x[k] = g[k].t;
+        bend[k] = g[k].bend;
+        arms[k] = g[k].arms;
+    }
+    now.bend = ff_monotone(x, bend, n, t);
+    now.arms = ff_monotone(x, arms, n, t);
+    t = ff_clamp(t, x[0], x[n - 1]);
+    while (i < n - 2 && t > x[i + 1])
+        ++i;
+    double h = x[i + 1] - x[i];
+    now.rise = ff_hermite((t - x[i]) / h, g[i].rise, g[i + 1].rise, g[i].rate * h, g[i + 1].rate * h);
+    return now;
 }
 
 static ff_rate_knot rates_at(const ff_plan *plan, double t)
@@ -140,7 +167,7 @@ static void place(const ff_plan *plan, ff_footing *footing, int foot, double at,
     ff_root root = ff_plan_root(plan, at);
     double side = foot == 0 ? 1.0 : -1.0;
     double speed = sqrt(root.forward * root.forward + root.left * root.left);
-    double ahead = plan->style.run ? -0.06 : STAND_AHEAD * (1.0 - ff_smooth(fabs(root.forward) / 1.0));
+    double ahead = plan->style.run ? -0.075 : ff_lerp(STAND_AHEAD, 0.009, ff_smooth(fabs(root.forward)));
     /* the body leans into a turn by 1.15 times the angle of v * turn rate over g (gait facts): feet outside */
     double outside = -1.15 * root.forward * root.turn / 9.81 * 0.9 * FF_BODY_LEG;
     ff_vec2 local = ff_v2(ahead, side * half_width(plan, &root, step_time) + outside);
@@ -165,13 +192,13 @@ static void set_pitch(const ff_plan *plan, ff_footing *footing, const ff_root *r
     double v = ff_max(0.0, root->forward), all = sqrt(v * v + 0.30 * root->left * root->left);
     if (plan->style.run) {
         footing->pitch_contact = 9.0 * FF_DEG;
-        footing->pitch_release = -46.0 * FF_DEG;
+        footing->pitch_release = -42.0 * FF_DEG;
         return;
     }
     double heel = ff_smooth(v / 0.5);
     footing->pitch_contact = heel * ff_clamp(8.5356 + 12.6893 * v, 0.0, 27.0) * FF_DEG;
     double size = ff_clamp(0.42 + 0.58 * (all + 0.08 * fabs(root->turn)) / 1.1, 0.42, 1.0);
-    footing->pitch_release = -54.0 * FF_DEG * size;
+    footing->pitch_release = -44.0 * FF_DEG * size;
 }
 
 /* Times of the stance between contact and the other foot's next contact, step_time later. */
@@ -182,12 +209,12 @@ static void set_times(const ff_plan *plan, ff_footing *footing, double contact, 
     double stance = style->stance > 0.0 ? style->stance : ff_usual_stance(footing->speed, style->run);
     double flat = (style->run ? 0.043 : 0.075) *
                   ff_min(1.0, footing->pitch_contact / ((style->run ? 9.0 : 20.0) * FF_DEG));
-    double push = style->run ? 0.165 : 0.205;
-    push *= sqrt(-footing->pitch_release / ((style->run ? 46.0 : 54.0) * FF_DEG));
+    double push = style->run ? 0.215 : 0.25;
+    push *= sqrt(-footing->pitch_release / ((style->run ? 42.0 : 44.0) * FF_DEG));
     footing->contact = contact;
     footing->flat = contact + flat * stride;
     footing->toe_off = contact + stance * stride;
-    footing->release = footing->toe_off - 0.02 * stride;
+    footing->release = footing->toe_off - (style->run ? 0.09 : 0.055) * stride;
     footing->heel_off = footing->toe_off - push * stride;
 }
 

@@ -57,6 +57,13 @@ typedef struct ff_footing {
     double lift, aside;
 } ff_footing;
 
+/* A whole-body gesture over time (a jump): the hips rise by a cubic through values and rates, the rest monotonically. */
+typedef struct ff_gesture {
+    double t;          /* s */
+    double rise, rate; /* m over the usual height, m/s */
+    double bend, arms; /* rad: trunk forward, both upper arms forward */
+} ff_gesture;
+
 typedef struct ff_plan {
     ff_plan_style style;
     ff_rate_knot knots[FF_PLAN_MAX_KNOTS];
@@ -66,6 +73,9 @@ typedef struct ff_plan {
     bool stand_first;  /* the first two contacts are a stand from ever before */
     bool stand_last;   /* the last two never end */
     double begin, end; /* s, of the root table */
+    ff_gesture gestures[FF_PLAN_MAX_KNOTS];
+    int gesture_count;
+    bool jump; /* the feet leave and land together */
 
     /* Filled by ff_plan_finish. */
     ff_root *roots; /* FF_PLAN_RATE per second from begin */
@@ -81,12 +91,18 @@ void ff_plan_free(ff_plan *plan);
 /* Root at any time (clamped to the table). */
 ff_root ff_plan_root(const ff_plan *plan, double t);
 
+/* The gesture at a time; all zero when the plan has none. */
+ff_gesture ff_plan_gesture(const ff_plan *plan, double t);
+
 /* Gait phase: whole numbers are left contacts, halves right ones. */
 double ff_plan_phase(const ff_plan *plan, double t);
 
 /* A point given in the root's frame at t: (forward, left) to plane coordinates and back. */
 ff_vec2 ff_plan_to_world(const ff_root *root, ff_vec2 local);
 ff_vec2 ff_plan_to_local(const ff_root *root, ff_vec2 world);
+
+/* Cubic on [0, 1] with these end values and end slopes. */
+double ff_hermite(double u, double p0, double p1, double m0, double m1);
 
 /* Monotone cubic interpolation (Fritsch and Carlson 1980) through count points (x ascending), constant outside. */
 double ff_monotone(const double *x, const double *y, int count, double at);

@@ -7,8 +7,8 @@
 
 #include <stdlib.h>
 
-#define KNEE_LEAST (7.0 * FF_DEG) /* soft knees: gait facts give 6 to 10 degrees least flexion in stance */
-#define STAND_HEIGHT 0.990        /* hips over the ankles of someone who stands, leg lengths */
+#define KNEE_LEAST (8.0 * FF_DEG) /* soft knees: gait facts give 6 to 10 degrees least flexion in stance */
+#define STAND_HEIGHT 0.9945       /* hips over the ankles of someone who stands, leg lengths */
 #define REACH_WINDOW 0.38 /* s, half the time over which lowered hips spread: over a quarter of any cycle */
 
 static const ff_vec3 axis_x = {1, 0, 0}, axis_z = {0, 0, 1};
@@ -22,6 +22,8 @@ typedef struct ff_frame {
     double lean_left;  /* body into a turn */
     double lean_front; /* into acceleration */
     double breath, sway[2];
+    ff_gesture gesture;
+    double bend; /* trunk forward, by style and gesture */
     ff_foot_pose foot[2];
     ff_quat pelvis;
     ff_vec3 hips; /* the root joint; y before lowering */
@@ -76,6 +78,8 @@ static void start_frame(const ff_plan *plan, double t, ff_frame *frame)
     frame->breath = plan->style.breathing * ff_sin(FF_TAU * t / 3.9);
     frame->sway[0] = 0.008 * still * slow_noise(plan->style.seed, 1, t);
     frame->sway[1] = 0.016 * still * slow_noise(plan->style.seed, 2, t);
+    frame->gesture = ff_plan_gesture(plan, t);
+    frame->bend = plan->style.bend + frame->gesture.bend;
     for (int foot = 0; foot < 2; ++foot)
         frame->foot[foot] = ff_foot_at(plan, foot, t);
 }
@@ -103,16 +107,16 @@ static void pose_pelvis(const ff_plan *plan, ff_frame *frame)
     double ripple = curve(frame, FF_CURVE_PELVIS_Z) * FF_BODY_LEG;
     ff_vec2 way = speed > 1e-6 ? ff_v2(root->forward / speed, root->left / speed) : ff_v2(1.0, 0.0);
     ff_vec2 local = ff_v2(ripple * way.a + frame->sway[0], side + ripple * way.b + frame->sway[1]);
-    local.a -= 0.5 * plan->style.bend * 0.12; /* hips back as the trunk bends forward */
+    local.a -= 0.06 * frame->bend; /* hips back as the trunk bends forward */
     double height = ff_lerp(STAND_HEIGHT, frame->set.curve[FF_CURVE_PELVIS_Y].c[0], frame->moving);
     if (!plan->style.run) /* small steps need no low hips */
         height = ff_lerp(height, ff_max(height, 0.968), 1.0 - ff_smooth((speed - 0.3) / 0.7));
     height += curve(frame, FF_CURVE_PELVIS_Y) - frame->set.curve[FF_CURVE_PELVIS_Y].c[0];
     ff_vec2 ground = ff_plan_to_world(root, local);
-    ff_vec3 middle = ff_ground(ground, FF_BODY_ANKLE_HEIGHT + height * FF_BODY_LEG - plan->style.sink);
+    ff_vec3 middle = ff_ground(ground, FF_BODY_ANKLE_HEIGHT + height * FF_BODY_LEG - plan->style.sink +
+                                           frame->gesture.rise);
     double yaw = curve(frame, FF_CURVE_PELVIS_YAW) * forwardness;
-    double pitch =
-        curve(frame, FF_CURVE_PELVIS_PITCH_FWD) + 0.3 * frame->lean_front + 0.45 * plan->style.bend;
+    double pitch = curve(frame, FF_CURVE_PELVIS_PITCH_FWD) + 0.3 * frame->lean_front + 0.45 * frame->bend;
     double roll = curve(frame, FF_CURVE_PELVIS_ROLL) - 0.5 * frame->lean_left - 1.2 * frame->sway[1];
     frame->pelvis = turned(root->heading + yaw, pitch, roll);
     frame->hips =
@@ -189,7 +193,7 @@ static void pose_leg(ff_frame *frame, int foot)
 static void pose_trunk(const ff_plan *plan, ff_frame *frame)
 {
     const ff_root *root = &frame->root;
-    double bend = plan->style.bend, lean = 0.55 * frame->lean_left;
+    double bend = frame->bend, lean = 0.55 * frame->lean_left;
     double yaw = curve(frame, FF_CURVE_THORAX_YAW), pitch = curve(frame, FF_CURVE_THORAX_PITCH_FWD);
     pitch += frame->lean_front + bend + 0.5 * FF_DEG * frame->breath + 0.5 * frame->sway[0];
     double roll = curve(frame, FF_CURVE_THORAX_ROLL) - lean + 0.5 * frame->sway[1];
@@ -222,7 +226,8 @@ static void pose_arm(const ff_plan *plan, ff_frame *frame, int side)
     const ff_role shoulder = side == 0 ? FF_ROLE_SHOULDER_L : FF_ROLE_SHOULDER_R;
     double s = side == 0 ? 1.0 : -1.0, lifted = s * 1.2 * FF_DEG * frame->breath;
     ff_quat hang = ff_quat_axis(axis_z, -s * 0.5 * FF_PI); /* from the arm held out to the arm hanging */
-    double flexion = arm_curve(plan, frame, FF_CURVE_SHOULDER_FLEXION, side) + 0.6 * plan->style.bend;
+    double flexion =
+        arm_curve(plan, frame, FF_CURVE_SHOULDER_FLEXION, side) + 0.6 * frame->bend + frame->gesture.arms;
     double abduction = arm_curve(plan, frame, FF_CURVE_SHOULDER_ABDUCTION, side) + 2.0 * FF_DEG;
     double rotation = arm_curve(plan, frame, FF_CURVE_SHOULDER_ROTATION_IN, side);
     double elbow = arm_curve(plan, frame, FF_CURVE_ELBOW_FLEXION, side);

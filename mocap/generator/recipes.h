@@ -9,9 +9,11 @@ typedef struct ff_recipe ff_recipe;
 struct ff_recipe {
     ff_generator_info info;
     int (*plan)(const ff_recipe *recipe,
-                ff_plan *plan); /* fills knots and contacts, returns the frame count */
-    double amount;              /* what the kind of clip needs: angle of a turn, ... */
-    bool reversed;              /* planned forward and played backward */
+                ff_plan *plan);    /* fills knots and contacts, returns the frame count */
+    void (*adjust)(ff_plan *plan); /* after ff_plan_finish; may be NULL */
+    double amount;                 /* what the kind of clip needs: angle of a turn, ... */
+    int foot;                      /* that starts (start) or closes (stop): 0 left, 1 right */
+    bool reversed;                 /* planned forward and played backward */
     ff_plan_style style;
 };
 
