@@ -53,32 +53,35 @@ static int last_frame_until(double t)
     return (int)floor(ff_clamp(t, -1e3, 1e6) * FPS + TINY);
 }
 
+/* Cut a stretch of frames to the clip; -1, -1 when it lies outside. */
+static void cut(int *first, int *last, int frame_count)
+{
+    if (*last < 0 || *first >= frame_count || *last < *first) {
+        *first = *last = -1;
+        return;
+    }
+    if (*first < 0) *first = 0;
+    if (*last >= frame_count) *last = frame_count - 1;
+}
+
 /* The part of a footing that lies in the clip; false when none does. */
 static bool true_plant(const ff_footing *footing, int foot, int frame_count, ff_true_plant *out)
 {
-    int last = frame_count - 1;
     *out = (ff_true_plant){.foot = foot,
                            .start = first_frame_from(footing->contact),
+                           .end = last_frame_until(footing->toe_off),
                            .flat_start = first_frame_from(footing->flat),
                            .flat_end = last_frame_until(footing->heel_off),
-                           .roll_end = last_frame_until(footing->release),
-                           .end = last_frame_until(footing->toe_off),
-                           .ball = ff_ground(footing->ball, 0.0),
+                           .ball_end = last_frame_until(footing->release),
+                           .ball = ff_ground(footing->ball, FF_BODY_BALL_HEIGHT),
                            .yaw = footing->yaw};
-    out->ball.y = FF_BODY_BALL_HEIGHT;
-    if (out->end < 0 || out->start > last) return false;
+    out->ball_start = footing->pitch_contact < 0.0 ? out->start : out->flat_start;
     out->cut_start = out->start < 0;
-    out->cut_end = out->end > last;
-    if (out->start < 0) out->start = 0;
-    if (out->end > last) out->end = last;
-    if (out->roll_end > last) out->roll_end = last;
-    if (out->flat_end < 0 || out->flat_start > last) {
-        out->flat_start = out->flat_end = -1;
-    } else {
-        if (out->flat_start < 0) out->flat_start = 0;
-        if (out->flat_end > last) out->flat_end = last;
-    }
-    return true;
+    out->cut_end = out->end >= frame_count;
+    cut(&out->start, &out->end, frame_count);
+    cut(&out->flat_start, &out->flat_end, frame_count);
+    cut(&out->ball_start, &out->ball_end, frame_count);
+    return out->start >= 0;
 }
 
 static int by_start(const void *a, const void *b)
@@ -101,6 +104,14 @@ static bool collect_plants(const ff_plan *plan, int frame_count, ff_generated *o
 
 /* -------------------------------------------------------------------------------------------------- clips */
 
+static void swap_ends(int *first, int *last, int frame_count)
+{
+    if (*first < 0) return;
+    int was = *first;
+    *first = frame_count - 1 - *last;
+    *last = frame_count - 1 - was;
+}
+
 /* Play everything from the last frame to the first. */
 static void reverse(ff_generated *g)
 {
@@ -118,14 +129,13 @@ static void reverse(ff_generated *g)
         }
     }
     for (int i = 0; i < g->plant_count; ++i) {
-        ff_true_plant was = g->plants[i], *p = &g->plants[i];
-        p->start = n - 1 - was.end;
-        p->end = n - 1 - was.start;
-        p->flat_start = was.flat_start < 0 ? -1 : n - 1 - was.flat_end;
-        p->flat_end = was.flat_start < 0 ? -1 : n - 1 - was.flat_start;
-        p->roll_end = p->flat_end;
-        p->cut_start = was.cut_end;
-        p->cut_end = was.cut_start;
+        ff_true_plant *p = &g->plants[i];
+        swap_ends(&p->start, &p->end, n);
+        swap_ends(&p->flat_start, &p->flat_end, n);
+        swap_ends(&p->ball_start, &p->ball_end, n);
+        bool cut_start = p->cut_start;
+        p->cut_start = p->cut_end;
+        p->cut_end = cut_start;
     }
     qsort(g->plants, (size_t)g->plant_count, sizeof *g->plants, by_start);
 }

@@ -34,12 +34,14 @@ typedef struct ff_generator_options {
 } ff_generator_options;
 
 /* The truth about one stretch of a foot on the ground. Frames count from 0, both ends inclusive: start = first frame
- * with any part of the foot on the floor and no longer coming down, end = last frame before the forefoot leaves;
- * from flat_start to flat_end heel and ball are still, from flat_start to roll_end the ball is. flat_start is -1
- * when the flat stretch lies outside the clip. */
+ * with any part of the foot on the floor and no longer coming down, end = last frame before the last part leaves;
+ * from flat_start to flat_end heel and ball are still, from ball_start to ball_end the ball is. A stretch outside the
+ * clip is -1, -1. */
 typedef struct ff_true_plant {
     int foot; /* 0 left, 1 right */
-    int start, flat_start, flat_end, roll_end, end;
+    int start, end;
+    int flat_start, flat_end;
+    int ball_start, ball_end;
     bool cut_start, cut_end; /* the plant goes on beyond the clip */
     ff_vec3 ball;            /* m, while flat */
     double yaw;              /* rad, heel to ball, while flat */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #define STAND_WIDTH 0.17  /* m between the balls of someone who stands */
-#define STAND_AHEAD 0.075 /* m, the balls in front of the hips then */
+#define STAND_AHEAD 0.100 /* m, the balls in front of the hips then */
 #define LONG_AGO 30.0     /* s: a stand begins and ends this far outside the clip */
 
 /* ------------------------------------------------------------------------------------------ interpolation */
@@ -157,7 +157,7 @@ static double half_width(const ff_plan *plan, const ff_root *root, double step_t
     double keep = 1.0 - ff_smooth((fore - 0.22) / 0.30);
     double side = 0.5 * (0.12 + fabs(root->left) * step_time) - usual;
     double turning = 0.5 * 0.15 - usual; /* turning on the spot: feet as apart as in a stand */
-    double extra = ff_max(0.0, side) * ff_smooth(fabs(root->left) / 0.15) * (0.35 + 0.65 * keep);
+    double extra = ff_max(0.0, side) * ff_smooth(fabs(root->left) / 0.15) * (0.80 + 0.20 * keep);
     double spot = ff_max(0.0, turning) * ff_smooth(fabs(root->turn) / 0.8) * keep;
     return usual + ff_max(extra, spot) + 0.5 * plan->style.widen;
 }

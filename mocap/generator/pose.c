@@ -7,8 +7,9 @@
 
 #include <stdlib.h>
 
-#define KNEE_LEAST (8.0 * FF_DEG) /* soft knees: gait facts give 6 to 10 degrees least flexion in stance */
-#define STAND_HEIGHT 0.9945       /* hips over the ankles of someone who stands, leg lengths */
+#define KNEE_LEAST (8.0 * FF_DEG) /* soft knees: gait facts give 6 to 10 degrees least flexion in walking */
+#define KNEE_LEAST_RUN (16.0 * FF_DEG) /* and 17 to 20 in running */
+#define STAND_HEIGHT 0.9945            /* hips over the ankles of someone who stands, leg lengths */
 #define REACH_WINDOW 0.38 /* s, half the time over which lowered hips spread: over a quarter of any cycle */
 
 static const ff_vec3 axis_x = {1, 0, 0}, axis_z = {0, 0, 1};
@@ -110,7 +111,7 @@ static void pose_pelvis(const ff_plan *plan, ff_frame *frame)
     local.a -= 0.06 * frame->bend; /* hips back as the trunk bends forward */
     double height = ff_lerp(STAND_HEIGHT, frame->set.curve[FF_CURVE_PELVIS_Y].c[0], frame->moving);
     if (!plan->style.run) /* small steps need no low hips */
-        height = ff_lerp(height, ff_max(height, 0.968), 1.0 - ff_smooth((speed - 0.3) / 0.7));
+        height = ff_lerp(height, ff_max(height, 0.980), 1.0 - ff_smooth((speed - 0.2) / 0.8));
     height += curve(frame, FF_CURVE_PELVIS_Y) - frame->set.curve[FF_CURVE_PELVIS_Y].c[0];
     ff_vec2 ground = ff_plan_to_world(root, local);
     ff_vec3 middle = ff_ground(ground, FF_BODY_ANKLE_HEIGHT + height * FF_BODY_LEG - plan->style.sink +
@@ -129,11 +130,19 @@ static ff_vec3 hip_joint(const ff_frame *frame, int foot)
     return ff_add3(frame->hips, ff_quat_rotate(frame->pelvis, offset));
 }
 
+/* 0 = forward, 1 = side steps. */
+static double sideways(const ff_root *root)
+{
+    double speed = sqrt(root->forward * root->forward + root->left * root->left);
+    return fabs(root->left) / ff_max(speed, 0.3);
+}
+
 /* How far the hips must come down for both legs to reach their feet with soft knees, m. */
-static double excess_height(const ff_frame *frame)
+static double excess_height(const ff_plan *plan, const ff_frame *frame)
 {
     double a = FF_BODY_THIGH, b = FF_BODY_SHANK, excess = 0.0;
-    double reach2 = a * a + b * b + 2.0 * a * b * ff_cos(KNEE_LEAST);
+    double least = plan->style.run ? KNEE_LEAST_RUN : KNEE_LEAST + 6.0 * FF_DEG * sideways(&frame->root);
+    double reach2 = a * a + b * b + 2.0 * a * b * ff_cos(least);
     for (int foot = 0; foot < 2; ++foot) {
         ff_vec3 hip = hip_joint(frame, foot), ankle = frame->foot[foot].ankle;
         double flat2 = (hip.x - ankle.x) * (hip.x - ankle.x) + (hip.z - ankle.z) * (hip.z - ankle.z);
@@ -295,7 +304,7 @@ bool ff_pose_clip(const ff_plan *plan, ff_clip *clip)
     for (int i = 0; i < count; ++i) {
         start_frame(plan, (i - half) * clip->frame_time, &frame);
         pose_pelvis(plan, &frame);
-        excess[i] = excess_height(&frame);
+        excess[i] = excess_height(plan, &frame);
     }
     bool done = spread(excess, count, half);
     for (int f = 0; done && f < clip->frame_count; ++f) {
