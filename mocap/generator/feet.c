@@ -79,7 +79,9 @@ static ff_foot_pose arriving(const ff_plan *plan, const ff_footing *next, const 
     ff_root root = ff_plan_root(plan, next->contact);
     ff_vec2 travel = ff_from_frame2(ff_fwd2(root.heading), ff_v2(root.forward, root.left));
     double keep = plan->style.run ? 0.36 : 0.34, speed = ff_length2(travel);
-    double fall = plan->style.run ? 0.45 : 0.02 + 0.08 * speed;
+    /* a foot that lands flat is set down, not laid down */
+    double flat = 1.0 - ff_smooth(next->pitch_contact / (12.0 * FF_DEG));
+    double fall = plan->style.run ? 0.45 : 0.02 + 0.08 * speed + 0.28 * flat;
     ff_foot_pose almost = *landing;
     if (next->flat > next->contact)
         almost.pitch += INSTANT * SLAP * next->pitch_contact / (next->flat - next->contact);
@@ -237,12 +239,13 @@ static double too_close(const ff_plan *plan, int foot, const ff_foot_pose *pose,
 static void clear_swing(const ff_plan *plan, int foot, const ff_footing *last, ff_footing *next)
 {
     double lift = plan->style.run ? 0.0 : -0.03, aside = 0.012;
+    double clearance = CLEARANCE + 0.020 * (1.0 - ff_smooth(next->speed / 0.4));
     next->lift = next->aside = 0.0;
     for (int k = 20; k <= 76; k += 2) {
         double u = k / 100.0, bump = ff_sin(FF_PI * u), t = ff_lerp(last->release, next->contact, u);
         ff_foot_pose pose = swinging(plan, foot, last, next, t);
         bump *= bump;
-        if (k >= 40 && k <= 70) lift = ff_max(lift, (CLEARANCE - sole_height(&pose)) / bump);
+        if (k >= 40 && k <= 70) lift = ff_max(lift, (clearance - sole_height(&pose)) / bump);
         aside = ff_max(aside, too_close(plan, foot, &pose, t) / bump);
     }
     next->lift = ff_min(lift, 0.10);

@@ -90,14 +90,26 @@ static int by_start(const void *a, const void *b)
     return p->start != q->start ? (p->start < q->start ? -1 : 1) : p->foot - q->foot;
 }
 
-static bool collect_plants(const ff_plan *plan, int frame_count, ff_generated *out)
+/* Played backward, a foot lands on its ball while the toes already touch, and leaves with the toes up: each event is
+ * put near the middle of its roll. */
+static ff_footing backward(const ff_footing *footing)
+{
+    ff_footing copy = *footing;
+    copy.contact = ff_lerp(footing->contact, footing->flat, 0.4);
+    copy.toe_off = ff_lerp(footing->release, footing->toe_off, 0.4);
+    return copy;
+}
+
+static bool collect_plants(const ff_plan *plan, int frame_count, bool reversed, ff_generated *out)
 {
     out->plants = ff_calloc((size_t)plan->contact_count + 1, sizeof *out->plants);
     if (!out->plants) return false;
     for (int foot = 0; foot < 2; ++foot)
-        for (int i = 0; i < plan->footing_count[foot]; ++i)
-            if (true_plant(&plan->footings[foot][i], foot, frame_count, &out->plants[out->plant_count]))
-                ++out->plant_count;
+        for (int i = 0; i < plan->footing_count[foot]; ++i) {
+            const ff_footing *footing = &plan->footings[foot][i];
+            ff_footing played = reversed ? backward(footing) : *footing;
+            if (true_plant(&played, foot, frame_count, &out->plants[out->plant_count])) ++out->plant_count;
+        }
     qsort(out->plants, (size_t)out->plant_count, sizeof *out->plants, by_start);
     return true;
 }
@@ -163,7 +175,7 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
         bool done = ff_plan_finish(plan);
         if (done && recipe->adjust) recipe->adjust(plan);
         if (done) ff_feet_clear(plan);
-        done = done && ff_pose_clip(plan, &out->clip) && collect_plants(plan, frames, out);
+        done = done && ff_pose_clip(plan, &out->clip) && collect_plants(plan, frames, recipe->reversed, out);
         if (!done) status = ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the clip %s", recipe->info.name);
     }
     ff_plan_free(plan);

@@ -206,7 +206,8 @@ static void set_times(const ff_plan *plan, ff_footing *footing, double contact, 
 {
     const ff_plan_style *style = &plan->style;
     double stride = 2.0 * step_time;
-    double stance = style->stance > 0.0 ? style->stance : ff_usual_stance(footing->speed, style->run);
+    double stance = ff_usual_stance(footing->speed, style->run);
+    if (footing->speed < 0.3 && !style->run) stance = 0.71; /* on the spot feet are quickly set over */
     double flat = (style->run ? 0.043 : 0.075) *
                   ff_min(1.0, footing->pitch_contact / ((style->run ? 9.0 : 20.0) * FF_DEG));
     double push = style->run ? 0.215 : 0.25;
@@ -214,7 +215,9 @@ static void set_times(const ff_plan *plan, ff_footing *footing, double contact, 
     footing->contact = contact;
     footing->flat = contact + flat * stride;
     footing->toe_off = contact + stance * stride;
-    footing->release = footing->toe_off - (style->run ? 0.09 : 0.055) * stride;
+    double rolls =
+        ff_smooth(footing->pitch_contact / (15.0 * FF_DEG)); /* a foot that lands flat leaves at once */
+    footing->release = footing->toe_off - (style->run ? 0.09 : 0.02 + 0.035 * rolls) * stride;
     footing->heel_off = footing->toe_off - push * stride;
 }
 

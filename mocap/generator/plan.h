@@ -20,7 +20,6 @@ typedef struct ff_plan_style {
     double widen;     /* m, added to the step width */
     double toe_out;   /* rad */
     double breathing; /* size of breathing and idle sway, 1 = a calm person */
-    double stance;    /* stance fraction, 0 = the usual one */
     int person;       /* whose curves, 0 = the mean walker */
     uint64_t seed;    /* idle sway differs by seed */
 } ff_plan_style;

@@ -36,6 +36,7 @@ static double step_time(double forward, double left, double turn, bool run)
     double sideways = 0.5 * (0.95 - 0.25 * fabs(left)), share = speed > 0.0 ? fabs(left) / speed : 0.0;
     if (share > 0.2) time = ff_lerp(time, sideways, ff_smooth((share - 0.2) / 0.6));
     if (turn != 0.0) time = ff_min(time, 0.25 * FF_PI / fabs(turn));
+    if (turn != 0.0 && speed < 0.3) time = ff_min(time, 0.52);
     return ff_max(whole(time), 20.0 * FRAME);
 }
 
@@ -53,12 +54,12 @@ static int plan_steady(const ff_recipe *recipe, ff_plan *plan)
            turn = recipe->reversed ? -info->turn : info->turn;
     double step = step_time(forward, left, turn, plan->style.run);
     int cycles = (int)ff_max(5.0, floor(5.5 / (2.0 * step)) + 1.0);
-    double seconds = 2.0 * step * cycles + 24 * FRAME;
+    double seconds = 2.0 * step * cycles + 24 * FRAME, lead = plan->style.run ? 6 * FRAME : 12 * FRAME;
     add_knot(plan, -10.0, forward, left, turn);
     add_knot(plan, seconds + 10.0, forward, left, turn);
     /* the clip begins a little before a contact */
     int before = 6;
-    add_contacts(plan, 12 * FRAME - before * step, step, leading_foot(info, 0.0), before + 2 * cycles + 8);
+    add_contacts(plan, lead - before * step, step, leading_foot(info, 0.0), before + 2 * cycles + 8);
     plan->begin = -4.0;
     plan->end = seconds + 4.0;
     return frames_of(seconds);
@@ -134,17 +135,17 @@ static double total_turn(const ff_plan *plan)
     return sum;
 }
 
-/* Turn on the spot by amount radians: the inner foot opens, the outer closes, 45 to 60 degrees to a pair. */
+/* Turn on the spot by amount radians: the inner foot opens, the outer follows, some 40 degrees to a step. */
 static int plan_turn(const ff_recipe *recipe, ff_plan *plan)
 {
     double angle = recipe->amount, step = whole(0.52);
-    int pairs = (int)ff_max(1.0, floor(fabs(angle) / (55.0 * FF_DEG) + 0.5)), foot = angle > 0.0 ? 0 : 1;
-    double first = 1.6, last = first + (2 * pairs - 1) * step, leaves = first - 0.7 * step;
-    add_contacts(plan, first - 2.0 * step, step, foot, 2 + 2 * pairs);
-    add_knot(plan, leaves - 0.20, 0.0, 0.0, 0.0);
+    int steps = 1 + (int)floor(fabs(angle) / (44.0 * FF_DEG)), foot = angle > 0.0 ? 0 : 1;
+    double first = 1.6, last = first + (steps - 1) * step, leaves = first - 0.58 * step;
+    add_contacts(plan, first - 2.0 * step, step, foot, 2 + steps);
+    add_knot(plan, leaves - 0.25, 0.0, 0.0, 0.0);
     add_knot(plan, first - 0.05, 0.0, 0.0, 1.0);
-    if (pairs > 1) add_knot(plan, last - 0.6 * step, 0.0, 0.0, 1.0);
-    add_knot(plan, last + 0.22, 0.0, 0.0, 0.0);
+    if (steps > 2) add_knot(plan, last - 0.75 * step, 0.0, 0.0, 1.0);
+    add_knot(plan, last + 0.20, 0.0, 0.0, 0.0);
     double scale = angle / total_turn(plan);
     for (int i = 0; i < plan->knot_count; ++i)
         plan->knots[i].turn *= scale;
