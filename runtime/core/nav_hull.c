@@ -66,6 +66,8 @@ void ff_hull_make(const ff_pack_point2 *points, uint32_t count, ff_hull *out)
         speed = ff_max(speed, ff_length2(sorted[used - 1]));
     }
     sorted[used++] = ff_v2(0.0, 0.0);
+    *out = (ff_hull){.count = 0};
+    if (speed == 0.0) return;
     uint32_t size = convex_hull(sorted, used, hull);
     if (size < 3) {
         size = 4;
@@ -74,7 +76,7 @@ void ff_hull_make(const ff_pack_point2 *points, uint32_t count, ff_hull *out)
     }
     while (size > FF_HULL_MAX)
         size = drop_smallest_corner(hull, size);
-    *out = (ff_hull){.count = size};
+    out->count = size;
     for (uint32_t i = 0; i < size; ++i) {
         /* Counter-clockwise travel has the inside on the left, as a line wants it. */
         out->line[i] = (ff_line){hull[i], ff_unit2(ff_sub2(hull[(i + 1) % size], hull[i])), 1.0};

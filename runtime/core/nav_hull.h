@@ -15,7 +15,7 @@ typedef struct ff_hull {
 } ff_hull;
 
 /* Hull of the points and the origin (standing still must stay allowed). Corners beyond FF_HULL_MAX are cut off,
- * smallest ones first. Points on one line give the box of A.11. */
+ * smallest ones first. Points on one line give the box of A.11, none no limit. */
 void ff_hull_make(const ff_pack_point2 *points, uint32_t count, ff_hull *out);
 
 /* Put the hull's lines, turned to where the agent faces (facing = unit vector), at the end of lines; returns the

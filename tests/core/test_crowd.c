@@ -1,0 +1,339 @@
+/* Crowds through the public API: life and death of agents, goals, walls, determinism, bad arguments. */
+#include "tests/core/crowd_trial.h"
+#include "tests/core/walker_pack.h"
+
+static ff_pack *pack;
+static void *image;
+
+static int open_pack(void **state)
+{
+    (void)state;
+    size_t size;
+    ff_error error;
+    image = ff_walker_image(&ff_walker_grid_full, &size);
+    FF_ASSERT_OK(ff_pack_open_memory(image, size, &pack, &error), error);
+    return 0;
+}
+
+static int close_pack(void **state)
+{
+    (void)state;
+    ff_pack_close(pack);
+    free(image);
+    return 0;
+}
+
+static ff_crowd *new_crowd(uint32_t agents, uint32_t threads)
+{
+    ff_error error;
+    ff_crowd *crowd;
+    ff_crowd_def def = ff_crowd_def_default();
+    def.max_agents = agents;
+    def.max_walls = 64;
+    def.threads = threads;
+    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+    return crowd;
+}
+
+static ff_agent add(ff_crowd *crowd, ff_vec2 from, ff_vec2 goal)
+{
+    ff_error error;
+    ff_agent agent;
+    ff_agent_def def = ff_agent_def_default();
+    ff_vec2 way = ff_sub2(goal, from);
+    def.position = from;
+    def.goal = goal;
+    def.heading = ff_atan2(way.b, way.a);
+    FF_ASSERT_OK(ff_crowd_add_agent(crowd, &def, &agent, &error), error);
+    return agent;
+}
+
+static ff_agent_state state_of(const ff_crowd *crowd, ff_agent agent)
+{
+    ff_error error;
+    ff_agent_state s;
+    FF_ASSERT_OK(ff_crowd_agent_state(crowd, agent, &s, &error), error);
+    return s;
+}
+
+static void a_lone_walker_goes_straight_to_the_goal_and_stands_there_without_dithering(void **state)
+{
+    (void)state;
+    ff_crowd *crowd = new_crowd(1, 1);
+    ff_agent agent = add(crowd, ff_v2(0, 0), ff_v2(10, 0));
+    ff_agent_state s = {0};
+    while (!s.reached && ff_crowd_step_count(crowd) < 400) {
+        ff_crowd_step(crowd);
+        s = state_of(crowd, agent);
+        FF_ASSERT_NEAR(s.position.b, 0.0, 0.02); /* no side preference without anybody to meet */
+    }
+    assert_true(s.reached);
+    assert_true(ff_crowd_step_count(crowd) < 300);
+    FF_ASSERT_BELOW(ff_length2(ff_sub2(s.position, s.goal)), 0.5);
+    for (int i = 0; i < 60; ++i)
+        ff_crowd_step(crowd);
+    ff_agent_state rest = state_of(crowd, agent);
+    for (int i = 0; i < 300; ++i) {
+        ff_crowd_step(crowd);
+        s = state_of(crowd, agent);
+        assert_true(s.reached);
+        FF_ASSERT_NEAR(s.position.a, rest.position.a, 0.0);
+        FF_ASSERT_NEAR(s.heading, rest.heading, 0.0);
+        FF_ASSERT_NEAR(ff_length2(s.velocity), 0.0, 0.0);
+    }
+    ff_crowd_destroy(crowd);
+}
+
+static void who_looks_away_from_the_goal_turns_and_goes(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; ++k) {
+        ff_crowd *crowd = new_crowd(1, 1);
+        ff_error error;
+        ff_agent agent;
+        ff_agent_def def = ff_agent_def_default();
+        def.goal = ff_v2(6, 0);
+        def.heading = FF_PI * k / 4.0;
+        FF_ASSERT_OK(ff_crowd_add_agent(crowd, &def, &agent, &error), error);
+        for (int i = 0; i < 300 && !state_of(crowd, agent).reached; ++i)
+            ff_crowd_step(crowd);
+        assert_true(state_of(crowd, agent).reached);
+        ff_crowd_destroy(crowd);
+    }
+}
+
+static void two_who_meet_head_on_pass_each_other_on_the_right(void **state)
+{
+    (void)state;
+    ff_crowd *crowd = new_crowd(2, 1);
+    ff_agent one = add(crowd, ff_v2(-5, 0), ff_v2(5, 0)), two = add(crowd, ff_v2(5, 0), ff_v2(-5, 0));
+    double nearest = 1e9, side = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        ff_crowd_step(crowd);
+        ff_vec2 gap = ff_sub2(state_of(crowd, two).position, state_of(crowd, one).position);
+        if (ff_length2(gap) < nearest) nearest = ff_length2(gap), side = gap.b;
+    }
+    assert_true(nearest >= 0.6 && side > 0.0); /* the other is on one's left */
+    assert_true(state_of(crowd, one).reached && state_of(crowd, two).reached);
+    ff_crowd_destroy(crowd);
+}
+
+static void people_on_one_point_part_without_nan(void **state)
+{
+    (void)state;
+    ff_crowd *crowd = new_crowd(6, 1);
+    ff_agent agent[6];
+    for (int i = 0; i < 6; ++i)
+        agent[i] = add(crowd, ff_v2(0, 0), ff_v2(i < 3 ? 4.0 : 0.0, 0));
+    for (int i = 0; i < 600; ++i)
+        ff_crowd_step(crowd);
+    for (int i = 0; i < 6; ++i) {
+        ff_agent_state s = state_of(crowd, agent[i]);
+        assert_true(isfinite(s.position.a) && isfinite(s.position.b) && isfinite(s.heading));
+        for (int j = 0; j < i; ++j)
+            assert_true(ff_length2(ff_sub2(s.position, state_of(crowd, agent[j]).position)) > 0.5);
+    }
+    ff_crowd_destroy(crowd);
+}
+
+static void many_with_one_goal_settle_round_it(void **state)
+{
+    (void)state;
+    ff_crowd *crowd = new_crowd(12, 1);
+    ff_agent agent[12];
+    for (int i = 0; i < 12; ++i)
+        agent[i] = add(crowd, ff_scale2(ff_fwd2(FF_TAU * i / 12.0), 6.0), ff_v2(0, 0));
+    for (int i = 0; i < 30 * 40; ++i)
+        ff_crowd_step(crowd);
+    int standing = 0;
+    for (int i = 0; i < 12; ++i) {
+        ff_agent_state s = state_of(crowd, agent[i]);
+        FF_ASSERT_BELOW(ff_length2(s.position), 2.0);
+        standing += ff_length2(s.velocity) < 0.3;
+    }
+    assert_true(standing >= 9);
+    ff_crowd_destroy(crowd);
+}
+
+static void walls_are_never_crossed_and_a_door_is_found(void **state)
+{
+    (void)state;
+    ff_crowd *crowd = new_crowd(40, 1);
+    ff_error error;
+    /* A wall across with a 1.6 m door, made of half-metre pieces. */
+    for (int i = 0; i < 40; ++i) {
+        double b = -10.0 + 0.5 * i;
+        if (b > -0.9 && b < 0.7) continue;
+        FF_ASSERT_OK(ff_crowd_add_wall(crowd, ff_v2(0, b), ff_v2(0, b + 0.5), &error), error);
+    }
+    ff_agent agent[40];
+    for (int i = 0; i < 40; ++i) {
+        bool passes = i < 12;
+        ff_vec2 from = passes ? ff_v2(-3.0 - (i / 3), i % 3 - 1.0) : ff_v2(-2.0 - i % 4, 3.0 + 0.2 * i);
+        agent[i] = add(crowd, from, passes ? ff_v2(4.0 + (i % 4) * 0.8, (i / 4) - 1.0) : ff_v2(5.0, from.b));
+    }
+    for (int i = 0; i < 30 * 60; ++i) {
+        ff_vec2 before[40];
+        for (int k = 0; k < 40; ++k)
+            before[k] = state_of(crowd, agent[k]).position;
+        ff_crowd_step(crowd);
+        for (int k = 0; k < 40; ++k) {
+            ff_vec2 p = state_of(crowd, agent[k]).position;
+            if (before[k].a * p.a > 0.0) continue;
+            double b = before[k].b + (p.b - before[k].b) * -before[k].a / (p.a - before[k].a);
+            assert_true((b > -1.0 && b < 1.0) || fabs(b) > 10.0); /* through the door or round the end */
+        }
+    }
+    for (int k = 0; k < 12; ++k)
+        assert_true(state_of(crowd, agent[k]).position.a > 0.0);
+    ff_crowd_destroy(crowd);
+}
+
+static void stale_handles_and_bad_definitions_are_refused(void **state)
+{
+    (void)state;
+    ff_error error;
+    ff_crowd *crowd = new_crowd(2, 1);
+    ff_agent a = add(crowd, ff_v2(0, 0), ff_v2(1, 0)), b = add(crowd, ff_v2(3, 0), ff_v2(4, 0)), c;
+    assert_int_equal(a.generation, 1);
+    ff_agent_def def = ff_agent_def_default();
+    assert_int_equal(ff_crowd_add_agent(crowd, &def, &c, &error), FF_ERR_RANGE);
+    FF_ASSERT_OK(ff_crowd_remove_agent(crowd, a, &error), error);
+    assert_int_equal(ff_crowd_remove_agent(crowd, a, &error), FF_ERR_ARGUMENT);
+    ff_agent_state s;
+    assert_int_equal(ff_crowd_agent_state(crowd, a, &s, &error), FF_ERR_ARGUMENT);
+    c = add(crowd, ff_v2(-3, 0), ff_v2(-4, 0));
+    assert_int_equal(c.slot, a.slot);
+    assert_int_equal(c.generation, 2);
+    assert_int_equal(ff_crowd_set_goal(crowd, a, ff_v2(0, 0), &error), FF_ERR_ARGUMENT);
+    FF_ASSERT_OK(ff_crowd_set_goal(crowd, b, ff_v2(9, 0), &error), error);
+    assert_int_equal(ff_crowd_set_goal(crowd, b, ff_v2(NAN, 0), &error), FF_ERR_NOT_FINITE);
+    ff_agent handles[4];
+    assert_int_equal(ff_crowd_agents(crowd, handles, 4), 2);
+    assert_int_equal(handles[0].generation, 2);
+    assert_int_equal(ff_crowd_agent_count(crowd), 2);
+    FF_ASSERT_OK(ff_crowd_remove_agent(crowd, b, &error), error);
+
+    ff_agent_def bad[8];
+    for (int i = 0; i < 8; ++i)
+        bad[i] = ff_agent_def_default();
+    bad[0].cookie = 0;
+    bad[1].position.a = NAN;
+    bad[2].goal.b = INFINITY;
+    bad[3].radius = 0.0;
+    bad[4].preferred_speed = -1.0;
+    bad[5].goal_tolerance = NAN;
+    bad[6].heading = INFINITY;
+    bad[7].position.b = 1e9;
+    for (int i = 0; i < 8; ++i)
+        assert_int_not_equal(ff_crowd_add_agent(crowd, &bad[i], &c, &error), FF_OK);
+
+    assert_int_equal(ff_crowd_add_wall(crowd, ff_v2(0, 0), ff_v2(0, 0), &error), FF_ERR_ARGUMENT);
+    assert_int_equal(ff_crowd_add_wall(crowd, ff_v2(0, NAN), ff_v2(0, 0), &error), FF_ERR_NOT_FINITE);
+    ff_crowd_step(crowd);
+    assert_int_equal(ff_crowd_add_wall(crowd, ff_v2(0, 0), ff_v2(1, 0), &error), FF_ERR_ARGUMENT);
+    ff_crowd_destroy(crowd);
+
+    ff_crowd_def wrong[6];
+    for (int i = 0; i < 6; ++i)
+        wrong[i] = ff_crowd_def_default();
+    wrong[0].cookie = 1;
+    wrong[1].max_agents = 0;
+    wrong[2].step = 0.0;
+    wrong[3].step = NAN;
+    wrong[4].threads = 0;
+    wrong[5].keep_right = NAN;
+    for (int i = 0; i < 6; ++i) {
+        crowd = (ff_crowd *)&error;
+        assert_int_not_equal(ff_crowd_create(pack, &wrong[i], &crowd, &error), FF_OK);
+        assert_null(crowd);
+    }
+    assert_int_equal(ff_crowd_create(NULL, &wrong[0], &crowd, &error), FF_ERR_ARGUMENT);
+    ff_crowd_destroy(NULL);
+}
+
+static void serial_backwards(void *pool, uint32_t count, void (*function)(void *, uint32_t), void *context)
+{
+    ++*(int *)pool;
+    for (uint32_t i = count; i-- > 0;)
+        function(context, i);
+}
+
+/* A busy scene with removals, additions and new goals, 3,000 steps. */
+static uint64_t busy_run(uint32_t threads, ff_parallel_for *tasks, void *pool, uint32_t steps)
+{
+    ff_error error;
+    ff_crowd *crowd;
+    ff_crowd_def def = ff_crowd_def_default();
+    def.max_agents = 60;
+    def.threads = threads;
+    def.tasks = tasks;
+    def.task_pool = pool;
+    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+    trial_wall(crowd, ff_v2(-3, 1), ff_v2(3, 1.5));
+    trial_wall(crowd, ff_v2(3, 1.5), ff_v2(3, 4));
+    ff_random random = {8, 8, 0};
+    ff_agent agents[60];
+    for (int i = 0; i < 60; ++i)
+        agents[i] = add(crowd, ff_scale2(ff_fwd2(FF_TAU * i / 60.0), 10.0),
+                        ff_scale2(ff_fwd2(FF_TAU * i / 60.0), -10.0));
+    for (uint32_t step = 0; step < steps; ++step) {
+        ff_crowd_step(crowd);
+        if (step % 50 != 49) continue;
+        uint32_t k = (uint32_t)(ff_random_next(&random) % 60);
+        ff_vec2 p = ff_scale2(ff_fwd2(ff_random_range(&random, -3, 3)), 9.0);
+        FF_ASSERT_OK(ff_crowd_set_goal(crowd, agents[(k + 7) % 60], p, &error), error);
+        FF_ASSERT_OK(ff_crowd_remove_agent(crowd, agents[k], &error), error);
+        agents[k] = add(crowd, ff_scale2(p, 1.3), ff_scale2(p, -1.0));
+    }
+    uint64_t hash = ff_crowd_state_hash(crowd);
+    ff_crowd_destroy(crowd);
+    return hash;
+}
+
+static void one_thread_and_two_and_any_order_give_the_same_bits_after_3000_steps(void **state)
+{
+    (void)state;
+    int calls = 0;
+    uint64_t one = busy_run(1, NULL, NULL, 3000);
+    assert_true(one == busy_run(2, NULL, NULL, 3000));
+    assert_true(one == busy_run(1, serial_backwards, &calls, 3000));
+    assert_true(calls > 3000);
+    assert_true(one != busy_run(1, NULL, NULL, 2999));
+}
+
+static void a_pose_can_be_asked_for_at_any_time(void **state)
+{
+    (void)state;
+    ff_error error;
+    ff_crowd *crowd = new_crowd(1, 1);
+    ff_agent agent = add(crowd, ff_v2(2, 1), ff_v2(8, 1));
+    ff_quat rotations[FF_PACK_MAX_JOINTS];
+    ff_vec3 hips;
+    for (int i = 0; i < 60; ++i) {
+        FF_ASSERT_OK(ff_crowd_agent_pose(crowd, agent, &hips, rotations, &error), error);
+        ff_vec2 root = state_of(crowd, agent).position;
+        FF_ASSERT_BELOW(ff_length2(ff_sub2(ff_plane(hips), root)), 0.25);
+        for (uint32_t j = 0; j < ff_pack_joint_count(pack); ++j)
+            FF_ASSERT_NEAR(ff_quat_dot(rotations[j], rotations[j]), 1.0, 1e-9);
+        ff_crowd_step(crowd);
+    }
+    assert_int_equal(ff_crowd_agent_pose(crowd, (ff_agent){0, 0}, &hips, rotations, &error), FF_ERR_ARGUMENT);
+    ff_crowd_destroy(crowd);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lone_walker_goes_straight_to_the_goal_and_stands_there_without_dithering),
+        cmocka_unit_test(who_looks_away_from_the_goal_turns_and_goes),
+        cmocka_unit_test(two_who_meet_head_on_pass_each_other_on_the_right),
+        cmocka_unit_test(people_on_one_point_part_without_nan),
+        cmocka_unit_test(many_with_one_goal_settle_round_it),
+        cmocka_unit_test(walls_are_never_crossed_and_a_door_is_found),
+        cmocka_unit_test(stale_handles_and_bad_definitions_are_refused),
+        cmocka_unit_test(one_thread_and_two_and_any_order_give_the_same_bits_after_3000_steps),
+        cmocka_unit_test(a_pose_can_be_asked_for_at_any_time),
+    };
+    return cmocka_run_group_tests(tests, open_pack, close_pack);
+}
