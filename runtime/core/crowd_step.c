@@ -55,6 +55,7 @@ static void snapshot(ff_crowd *crowd)
                                              .velocity = velocity,
                                              .reference = ff_scale2(ff_add2(mind->command, velocity), 0.5),
                                              .preferred = mind->preferred,
+                                             .goal = crowd->traits[slot].goal,
                                              .radius = crowd->traits[slot].radius,
                                              .slot = slot,
                                              .standing = mind->standing};

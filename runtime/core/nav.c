@@ -54,6 +54,20 @@ static ff_vec2 adapt_by_forces(const nav_view *view, ff_vec2 preferred)
     return ff_shorten2(adapted, 1.3 * ff_length2(preferred) + 0.2);
 }
 
+/* The densest on each side of the way: the segments of one chain must count once. */
+static double density_of_walls(const nav_view *view, ff_vec2 critical, ff_vec2 ahead)
+{
+    double most[2] = {0.0, 0.0};
+    for (uint32_t i = 0; i < view->wall_count; ++i) {
+        ff_vec2 nearest = ff_wall_nearest(view->walls[i], critical);
+        ff_vec2 offset = ff_sub2(nearest, critical);
+        if (ff_dot2(ff_sub2(nearest, view->me->position), ahead) <= 0.0) continue;
+        int side = ff_det2(ahead, offset) > 0.0;
+        most[side] = ff_max(most[side], ff_density_of_wall(offset));
+    }
+    return most[0] + most[1];
+}
+
 static ff_vec2 adapt_to_density(const nav_view *view, ff_vec2 preferred, ff_vec2 adapted)
 {
     ff_vec2 ahead = ff_unit2(preferred);
@@ -69,12 +83,8 @@ static ff_vec2 adapt_to_density(const nav_view *view, ff_vec2 preferred, ff_vec2
             rho += ff_density_of_agent(ff_sub2(grid->seen[i].position, critical), ahead);
         }
     }
-    for (uint32_t i = 0; i < view->wall_count; ++i) {
-        ff_vec2 nearest = ff_wall_nearest(view->walls[i], critical);
-        if (ff_dot2(ff_sub2(nearest, view->me->position), ahead) > 0.0)
-            rho += ff_density_of_wall(ff_sub2(nearest, critical));
-    }
-    return ff_shorten2(adapted, ff_density_speed(rho, DENSITY_BETA));
+    return ff_shorten2(adapted,
+                       ff_density_speed(rho + density_of_walls(view, critical, ahead), DENSITY_BETA));
 }
 
 /* Where the pair will be when a body has answered, and ORCA from there (study 4, 4). */

@@ -9,7 +9,7 @@
 #define PROGRESS 0.25 /* m nearer to the goal: the least that counts */
 #define PATIENCE 6.0  /* s without progress */
 #define TAKEN 1.0  /* m beyond the tolerance: a goal this near, and held by others, is as good as reached */
-#define SETTLE 5.0 /* s until one who settled tries again */
+#define SETTLE 5.0 /* s until one who settled tries again; twice as long every time */
 #define DETOUR_TIME 2.0  /* s */
 #define DETOUR_FIRST 0.8 /* rad */
 #define DETOUR_MORE 0.4  /* rad more with every second try */
@@ -50,6 +50,7 @@ static void give_way_to_fate(bool taken, double distance, const ff_nav_world *wo
     mind->best = distance;
     if (taken && distance < traits->goal_tolerance + TAKEN) {
         mind->standing = 1;
+        ++mind->detours;
         return;
     }
     /* First round the preferred side, then the other, then wider. */
@@ -72,7 +73,8 @@ static void stand_or_go(double distance, double speed, double step, const ff_tra
         return;
     }
     mind->stalled += step;
-    if (distance > traits->goal_tolerance + LEAVE + TAKEN || mind->stalled > SETTLE) {
+    double wait = SETTLE * (double)(1u << (mind->detours < 5 ? mind->detours : 5));
+    if (distance > traits->goal_tolerance + LEAVE + TAKEN || mind->stalled > wait) {
         mind->standing = 0;
         mind->stalled = 0.0;
         mind->best = distance;
@@ -145,7 +147,9 @@ ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neigh
     for (uint32_t i = 0; i < count; ++i) {
         const ff_seen *other = &world->grid->seen[neighbours[i].index];
         double wish = ff_length2(other->preferred), reach = me->radius + other->radius;
-        if (wish < WAY_LEAST) continue;
+        ff_vec2 apart = ff_sub2(me->goal, other->goal);
+        /* Two cannot stand on one goal: who was first keeps it. */
+        if (wish < WAY_LEAST || ff_dot2(apart, apart) < reach * reach) continue;
         ff_vec2 way = ff_scale2(other->preferred, 1.0 / wish), x = ff_sub2(me->position, other->position);
         double gap = ff_length2(x) - reach, across = ff_det2(way, x);
         if (gap > WAY_GAP || ff_dot2(way, x) < 0.0 || fabs(across) > reach + 2.0 * FF_PADDING) continue;

@@ -19,6 +19,7 @@ typedef struct ff_seen {
     ff_vec2 velocity;  /* m/s, of the root */
     ff_vec2 reference; /* m/s, midpoint of its last command and its velocity: what ORCA takes it to do */
     ff_vec2 preferred; /* m/s, where it would like to go */
+    ff_vec2 goal;      /* m */
     double radius;     /* m */
     uint32_t slot;
     uint32_t standing; /* 1: has arrived and stands */
