@@ -181,7 +181,7 @@ void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *n
     view.wall_count = ff_walls_near(world->walls, view.me->position, WALL_REACH, view.walls);
     ff_vec2 preferred = ff_nav_preferred(world, self, neighbours, count, traits, mind);
     mind->preferred = mind->standing ? ff_nav_make_way(world, self, neighbours, count) : preferred;
-    preferred = ff_nav_keep_right(world, self, traits, preferred, mind);
+    preferred = ff_nav_keep_right(world, self, view.walls, view.wall_count, traits, preferred, mind);
 
     ff_vec2 wish = mind->preferred;
     if (!mind->standing) wish = adapt_to_density(&view, preferred, adapt_by_forces(&view, preferred));

@@ -22,6 +22,7 @@
 #define MEET_TIME 5.0   /* s */
 #define MEET_WIDTH 0.6  /* m, by which a pass is called a meeting although nobody would touch */
 #define EASE 0.5        /* s */
+#define WALL_TIME 2.0   /* s to a wall beside the way, from which the side preference fades */
 #define FADE_FROM 0.8   /* m from the goal: no side preference inside */
 #define FADE_LENGTH 2.0 /* m */
 
@@ -126,16 +127,32 @@ static bool meets_somebody(const ff_grid *grid, uint32_t self, ff_vec2 preferred
     return false;
 }
 
-ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_traits *traits,
-                          ff_vec2 preferred, ff_mind *mind)
+/* 1, or less when the turned way runs into a wall soon and the straight one does not: nobody steps aside into walls. */
+static double room_beside(const ff_wall *const *walls, uint32_t count, const ff_seen *me, ff_vec2 straight,
+                          ff_vec2 aside)
 {
+    double soonest = INFINITY, straight_on = INFINITY;
+    for (uint32_t i = 0; i < count; ++i) {
+        soonest = ff_min(soonest, ff_time_to_wall(walls[i], me->position, aside, me->radius, NULL));
+        straight_on =
+            ff_min(straight_on, ff_time_to_wall(walls[i], me->position, straight, me->radius, NULL));
+    }
+    return soonest < straight_on ? ff_min(soonest / WALL_TIME, 1.0) : 1.0;
+}
+
+ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_wall *const *walls,
+                          uint32_t wall_count, const ff_traits *traits, ff_vec2 preferred, ff_mind *mind)
+{
+    const ff_seen *me = &world->grid->seen[self];
     bool goes = ff_dot2(preferred, preferred) > 0.0,
          meets = goes && meets_somebody(world->grid, self, preferred);
     mind->bias = ff_clamp(mind->bias + (meets ? 1.0 : -1.0) * world->step / EASE, 0.0, 1.0);
     if (!goes || mind->bias <= 0.0) return preferred;
-    double distance = ff_length2(ff_sub2(traits->goal, world->grid->seen[self].position));
+    double distance = ff_length2(ff_sub2(traits->goal, me->position));
     double fade = ff_clamp((distance - FADE_FROM) / FADE_LENGTH, 0.0, 1.0);
-    return turned(preferred, -world->keep_right * mind->bias * fade);
+    double angle = -world->keep_right * mind->bias * fade;
+    double room = room_beside(walls, wall_count, me, preferred, turned(preferred, angle));
+    return turned(preferred, angle * room);
 }
 
 ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,

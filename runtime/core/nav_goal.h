@@ -9,9 +9,9 @@
 ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
                          uint32_t count, const ff_traits *traits, ff_mind *mind);
 
-/* v_pref turned to the preferred side while somebody is met (navigation study 4, 1). */
-ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_traits *traits,
-                          ff_vec2 preferred, ff_mind *mind);
+/* v_pref turned to the preferred side while somebody is met (navigation study 4, 1), but not into one of the walls near. */
+ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_wall *const *walls,
+                          uint32_t wall_count, const ff_traits *traits, ff_vec2 preferred, ff_mind *mind);
 
 /* Where one who stands steps to let those through who want to walk past: across their way, to the side where he
  * already is. Zero when he is in nobody's way. */

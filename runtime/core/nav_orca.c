@@ -115,29 +115,84 @@ static bool inside_chained(const ff_wall *const *walls, uint32_t count, uint32_t
     return false;
 }
 
+/* A way past one wall: where on the boundary, and how far (squared) that is from our velocity. */
+typedef struct exit_point {
+    boundary at;
+    double distance;
+    uint32_t wall;
+} exit_point;
+
+/* We touch the wall: not further in. False where the end of one segment is touched beside the next one's flat side: that
+ * one speaks for both, or we would stick to the joints of a chain. */
+static bool leave_touched(const ff_wall *const *walls, uint32_t count, uint32_t self, ff_vec2 p,
+                          exit_point *out)
+{
+    ff_vec2 away = ff_sub2(p, ff_wall_nearest(walls[self], p));
+    for (uint32_t i = 0; i < count; ++i) {
+        ff_vec2 other = ff_sub2(p, ff_wall_nearest(walls[i], p));
+        if (ff_dot2(other, other) < ff_dot2(away, away) - 1e-12 && ff_dot2(other, away) > 0.0 &&
+            share_an_end(walls[i], walls[self]))
+            return false;
+    }
+    *out = (exit_point){{ff_v2(0.0, 0.0), ff_unit2(away)}, 0.0, self};
+    if (ff_dot2(out->at.normal, out->at.normal) < 0.5) out->at.normal = ff_left2(walls[self]->along);
+    return true;
+}
+
+/* The nearest boundary point that belongs to the boundary of the whole chain; if there is none (other segments
+ * surround this one), the nearest of its own. */
+static exit_point nearest_exit(const ff_wall *const *walls, uint32_t count, uint32_t self, ff_vec2 p,
+                               ff_vec2 own, double radius, double horizon)
+{
+    boundary at[BOUNDARY_MAX];
+    exit_point best = {.distance = INFINITY, .wall = self};
+    uint32_t part_count = boundary_parts(walls[self], p, own, radius, horizon, at);
+    for (int hidden = 0; hidden < 2 && isinf(best.distance); ++hidden) {
+        for (uint32_t k = 0; k < part_count; ++k) {
+            ff_vec2 change = ff_sub2(at[k].point, own);
+            double distance = ff_dot2(change, change);
+            if (distance >= best.distance) continue;
+            if (!hidden && inside_chained(walls, count, self, p, at[k], radius, horizon)) continue;
+            best.at = at[k];
+            best.distance = distance;
+        }
+    }
+    return best;
+}
+
+/* Whether the line forbids all that the wall forbids: its nearer end of time is beyond the line, so what is behind it
+ * is too, as the line admits the origin. */
+static bool covers(ff_line line, const ff_wall *wall, ff_vec2 p, double radius, double horizon)
+{
+    double need = radius / horizon - 1e-9, scale = 1.0 / horizon;
+    return ff_line_violation(line, ff_scale2(ff_sub2(wall->from, p), scale)) >= need &&
+           ff_line_violation(line, ff_scale2(ff_sub2(wall->to, p), scale)) >= need;
+}
+
 uint32_t ff_orca_walls(const ff_wall *const *walls, uint32_t count, ff_vec2 p, ff_vec2 own, double radius,
                        double horizon, ff_line *lines, uint32_t line_count)
 {
-    for (uint32_t i = 0; i < count; ++i) {
+    exit_point exits[FF_WALL_LINES_MAX];
+    uint32_t exit_count = 0, first = line_count;
+    for (uint32_t i = 0; i < count && i < FF_WALL_LINES_MAX; ++i) {
+        exit_point exit;
         ff_vec2 away = ff_sub2(p, ff_wall_nearest(walls[i], p));
-        boundary best = {ff_v2(0.0, 0.0), ff_unit2(away)};
-        if (ff_dot2(away, away) <= radius * radius) {
-            if (ff_dot2(best.normal, best.normal) < 0.5) best.normal = ff_left2(walls[i]->along);
-        } else {
-            boundary part[BOUNDARY_MAX];
-            uint32_t part_count = boundary_parts(walls[i], p, own, radius, horizon, part);
-            double least = INFINITY;
-            bool any = false;
-            for (uint32_t k = 0; k < part_count; ++k) {
-                ff_vec2 change = ff_sub2(part[k].point, own);
-                double distance = ff_dot2(change, change);
-                if (distance >= least || inside_chained(walls, count, i, p, part[k], radius, horizon))
-                    continue;
-                least = distance, best = part[k], any = true;
-            }
-            if (!any) continue;
-        }
-        lines[line_count++] = (ff_line){best.point, ff_v2(best.normal.b, -best.normal.a), 1.0};
+        if (ff_dot2(away, away) > radius * radius)
+            exit = nearest_exit(walls, count, i, p, own, radius, horizon);
+        else if (!leave_touched(walls, count, i, p, &exit))
+            continue;
+        uint32_t at = exit_count++;
+        for (; at > 0 && exit.distance < exits[at - 1].distance; --at)
+            exits[at] = exits[at - 1];
+        exits[at] = exit;
+    }
+    for (uint32_t i = 0; i < exit_count; ++i) {
+        bool covered = false;
+        for (uint32_t k = first; k < line_count && !covered; ++k)
+            covered = covers(lines[k], walls[exits[i].wall], p, radius, horizon);
+        if (covered) continue;
+        ff_vec2 normal = exits[i].at.normal;
+        lines[line_count++] = (ff_line){exits[i].at.point, ff_v2(normal.b, -normal.a), 1.0};
     }
     return line_count;
 }

@@ -11,10 +11,11 @@
 ff_line ff_orca_disc(ff_vec2 to_other, ff_vec2 relative, ff_vec2 own, double reach, double horizon,
                      double share, double overlap_time, ff_vec2 apart);
 
-/* Lines for not touching walls[count] within horizon seconds, put at the end of lines; returns the new count. Walls
- * take no part in avoiding: full responsibility. All lines admit standing still. The velocity obstacle of each
- * wall is found by itself; where it lies inside that of a wall that shares an end (a chain), its boundary is not a
- * boundary of the whole and gives no line. */
+/* Lines for not touching walls[count] (at most FF_WALL_LINES_MAX) within horizon seconds, put at the end of lines;
+ * returns the new count. Walls take no part in avoiding: full responsibility. All lines admit standing still. Each wall's
+ * velocity obstacle is left at the point nearest to our velocity that is not inside that of a wall which shares an end (a
+ * chain is one obstacle); the nearest ways out come first, and walls that an earlier line has dealt with give none. */
+#define FF_WALL_LINES_MAX 16
 uint32_t ff_orca_walls(const ff_wall *const *walls, uint32_t count, ff_vec2 p, ff_vec2 own, double radius,
                        double horizon, ff_line *lines, uint32_t line_count);
 

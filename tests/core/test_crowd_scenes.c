@@ -72,8 +72,8 @@ static void crossing_crowds_all_arrive(void **state)
 static void a_corridor_with_two_streams_flows(void **state)
 {
     (void)state;
-    run(TRIAL_CORRIDOR, 0, 1.0 / 30.0, 1, 90.0, 0.05);
-    run(TRIAL_CORRIDOR, 0, 0.1, 2, 90.0, 0.05);
+    run(TRIAL_CORRIDOR, 0, 1.0 / 30.0, 1, 90.0, 0.08);
+    run(TRIAL_CORRIDOR, 0, 0.1, 2, 90.0, 0.08);
 }
 
 int main(void)

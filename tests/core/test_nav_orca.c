@@ -131,14 +131,14 @@ static void a_chain_of_short_segments_allows_what_one_long_wall_allows(void **st
         part[i] = ff_wall_between(ff_v2(-2.5 + 0.5 * i, 0.0), ff_v2(-2.0 + 0.5 * i, 0.0));
         parts[i] = &part[i];
     }
-    for (int round = 0; round < 500; ++round) {
-        ff_vec2 p = ff_v2(ff_random_range(&random, -1.2, 1.2), ff_random_range(&random, 0.35, 1.5));
-        ff_vec2 own = random_vec(&random, 1.0);
+    for (int round = 0; round < 2000; ++round) {
+        ff_vec2 p = ff_v2(ff_random_range(&random, -4.0, 4.0), ff_random_range(&random, 0.31, 1.5));
+        ff_vec2 own = random_vec(&random, 1.5);
         ff_line chain[10], line[1];
         uint32_t count = ff_orca_walls(parts, 10, p, own, 0.3, 1.0, chain, 0);
         ff_orca_walls(one, 1, p, own, 0.3, 1.0, line, 0);
         for (int k = 0; k < 40; ++k) {
-            ff_vec2 v = random_vec(&random, 1.0);
+            ff_vec2 v = random_vec(&random, 1.5);
             if (allowed(line, 1, v)) assert_true(allowed(chain, count, v));
             if (allowed(chain, count, v)) assert_false(hits(parts, 10, p, v, 1.0));
         }
