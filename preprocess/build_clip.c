@@ -108,11 +108,21 @@ static int mode_tag(const char *mode)
     return -1;
 }
 
+/* Is word one of the space-separated tags? */
+static bool has_tag(const char *tags, const char *word)
+{
+    size_t length = strlen(word);
+    for (const char *at = tags; (at = strstr(at, word)) != NULL; at += length)
+        if ((at == tags || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
+    return false;
+}
+
 void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig)
 {
     const ff_plants *plants = &clip->plants;
     int mode = mode_tag(clip->mode), rest = clip->clip.rest_frames;
-    bool walks = mode != FF_MODE_JUMP && mode != FF_MODE_CLIMB && mode != FF_MODE_CROUCH;
+    bool walks = mode != FF_MODE_JUMP && mode != FF_MODE_CLIMB && mode != FF_MODE_CROUCH &&
+                 !has_tag(clip->tags, FF_TAG_NO_EXAMPLE);
     ff_status status = ff_motion_from_clip(rig, &clip->clip, plants, &clip->motion, &clip->error);
     if (status == FF_OK)
         status = ff_actions_cut(rig, &clip->motion, plants, mode, &clip->actions, &clip->error);

@@ -6,6 +6,10 @@
 #include "preprocess/cycles.h"
 #include "preprocess/steps.h"
 
+/* Catalogue tag of clips that are no model of walking (a ball is dribbled, someone sneaks): their steps become actions,
+ * but no gait example. */
+#define FF_TAG_NO_EXAMPLE "no-example"
+
 typedef struct ff_build_clip {
     char *source; /* relative to the folder that holds all clips: never an absolute path */
     const char *licence, *citation, *tags, *mode;

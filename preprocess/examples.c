@@ -12,12 +12,18 @@
 #define SEAM_STRAIGHT 0.05
 #define SEAM_OTHER 0.08
 #define WANDER 0.2
-#define WANDER_COST 0.15  /* m per rad */
+#define SEAM_IDLE 0.015
+#define RESTLESS 0.03    /* m */
+#define CROSSED 0.08     /* m */
+#define WANDER_COST 0.15 /* m per rad */
+#define KNEE_SOFT (6.0 * FF_DEG)
+#define KNEE_COST 0.2     /* m per rad */
+#define TURN_COST 0.2     /* m, more than any seam */
 #define STRANGER_COST 1.0 /* m, far more than any seam: others are taken where the base person has none */
 /* Metres per second that 1 rad/s counts for, as the runtime measures rates. */
 #define TURN_SCALE 0.5
 /* Examples are at least this far apart (m/s). */
-#define SPACING_WALK 0.2
+#define SPACING_WALK 0.15
 #define SPACING_RUN 0.4
 /* Hips lower than this share of their height in the rest pose crouch. */
 #define UPRIGHT 0.9
@@ -54,14 +60,38 @@ static double mean_height(const ff_example *e)
     return sum / e->frame_count;
 }
 
+/* Does the left foot pass to the right of the right one? Blended with other gaits, crossed legs meet. */
+static bool legs_cross(const ff_example *e)
+{
+    for (int k = 0; k < e->frame_count; ++k)
+        if ((double)e->feet[2 * k].ball[1] - (double)e->feet[2 * k + 1].ball[1] < -CROSSED) return true;
+    return false;
+}
+
+/* Largest way of any joint over the cycle, mean over the joints: how restless a standing person is. */
+static double restlessness(const ff_rig *rig, const ff_example *e)
+{
+    ff_vec3 first[FF_BODY_COUNT], at[FF_BODY_COUNT];
+    double most[FF_BODY_COUNT] = {0.0}, sum = 0.0;
+    ff_example_pose(rig, e, 0, first);
+    for (int k = 1; k < e->frame_count; ++k) {
+        ff_example_pose(rig, e, k, at);
+        for (int r = 0; r < FF_BODY_COUNT; ++r)
+            most[r] = ff_max(most[r], ff_length3(ff_sub3(at[r], first[r])));
+    }
+    for (int r = 0; r < FF_BODY_COUNT; ++r)
+        sum += most[r];
+    return sum / FF_BODY_COUNT;
+}
+
 static bool is_usable(const ff_rig *rig, const ff_example *e)
 {
     double v = ff_length2(ff_v2((double)e->record.v_forward, (double)e->record.v_left)),
            seam = (double)e->record.seam;
     if (mean_height(e) < UPRIGHT * rig->offset[FF_ROLE_HIPS].y) return false;
-    if (e->record.flags & FF_EXAMPLE_IDLE) return seam < SEAM_STRAIGHT;
+    if (e->record.flags & FF_EXAMPLE_IDLE) return seam < SEAM_IDLE && restlessness(rig, e) < RESTLESS;
     if (seam > (is_straight(e) && e->record.gait == FF_GAIT_WALK ? SEAM_STRAIGHT : SEAM_OTHER)) return false;
-    if (e->wander > WANDER) return false;
+    if (e->wander > WANDER || legs_cross(e)) return false;
     if (e->record.gait == FF_GAIT_RUN) return e->record.v_forward > 1.5f;
     return v < 2.4 && fabs((double)e->record.turn_rate) < 2.6;
 }
@@ -81,9 +111,23 @@ static int by_cost(const void *x, const void *y)
     return a->order - b->order;
 }
 
+/* Least knee flexion of the cycle (rad). */
+static double straightest_knee(const ff_example *e)
+{
+    double least = FF_PI;
+    for (int k = 0; k < e->frame_count; ++k)
+        for (int r = FF_ROLE_KNEE_L; r <= FF_ROLE_KNEE_R; r += FF_ROLE_KNEE_R - FF_ROLE_KNEE_L)
+            least = ff_min(least, ff_quat_angle(e->rotations[(size_t)k * FF_ROLE_JOINT_COUNT + (size_t)r]));
+    return least;
+}
+
+/* Straight walks are chosen first: they are what people do most, and turns are kept away from them, not they from
+ * turns. Cycles whose knees lock pop when a foot is held (synthesis study, section 3). */
 static double cost_of(const ff_example *e)
 {
-    return (double)e->record.seam + WANDER_COST * e->wander;
+    double knee = ff_max(0.0, KNEE_SOFT - straightest_knee(e));
+    return (double)e->record.seam + WANDER_COST * e->wander + KNEE_COST * knee +
+           (is_straight(e) ? 0.0 : TURN_COST);
 }
 
 /* Take candidates in order of cost, each one that is spacing away from all taken before (a stranger half as much

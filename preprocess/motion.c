@@ -1,7 +1,7 @@
 #include "preprocess/motion.h"
 
-#include "preprocess/filter.h"
 #include "preprocess/retarget.h"
+#include "preprocess/stand.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 
@@ -127,61 +127,6 @@ static ff_status settle_root(ff_motion *motion, ff_error *error)
     return FF_OK;
 }
 
-/* -------------------------------------------------------------------------------------------------- the floor */
-
-/* Height of the ball over the floor while it stands: median of the flat stretches (of whole plants when there is no
- * flat one), mean of both feet. False when the clip has no plant. */
-static bool planted_height(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                           double *scratch, double *out)
-{
-    double sum = 0.0;
-    int feet = 0;
-    for (int foot = 0; foot < 2; ++foot) {
-        int count = 0;
-        for (int pass = 0; pass < 2 && count == 0; ++pass) {
-            for (int p = 0; p < plants->count; ++p) {
-                const ff_plant *plant = &plants->items[p];
-                int from = pass ? plant->start : plant->flat_start, to = pass ? plant->end : plant->flat_end;
-                if (plant->foot != foot || from < 0) continue;
-                for (int k = from; k <= to && k < motion->frame_count && count < motion->frame_count; ++k) {
-                    ff_vec3 at[FF_BODY_COUNT];
-                    ff_motion_pose(rig, motion, k, at, NULL);
-                    scratch[count++] = at[foot ? FF_ROLE_BALL_R : FF_ROLE_BALL_L].y;
-                }
-            }
-        }
-        if (count == 0) continue;
-        sum += ff_filter_quantile(scratch, count, 0.5);
-        ++feet;
-    }
-    if (feet) *out = sum / feet;
-    return feet > 0;
-}
-
-/* Raise or lower the whole motion so that planted balls are at the rig's rest height. Without any plant, the lowest
- * that the balls come to (5 %) is taken to be the floor. */
-static ff_status stand_on_floor(const ff_rig *rig, ff_motion *motion, const ff_plants *plants,
-                                ff_error *error)
-{
-    int n = motion->frame_count;
-    double *scratch = ff_calloc((size_t)n, sizeof *scratch);
-    if (!scratch) return ff_fail(error, FF_ERR_NO_MEMORY, "the floor of %d frames", n);
-    ff_vec3 rest[FF_BODY_COUNT], at[FF_BODY_COUNT];
-    ff_rig_rest_pose(rig, rest);
-    double height = 0.0;
-    if (!planted_height(rig, motion, plants, scratch, &height)) {
-        for (int k = 0; k < n; ++k) {
-            ff_motion_pose(rig, motion, k, at, NULL);
-            scratch[k] = ff_min(at[FF_ROLE_BALL_L].y, at[FF_ROLE_BALL_R].y);
-        }
-        height = ff_filter_quantile(scratch, n, 0.05);
-    }
-    for (int k = 0; k < n; ++k)
-        motion->hips[k].z += rest[FF_ROLE_BALL_L].y - height;
-    free(scratch);
-    return FF_OK;
-}
-
 /* ------------------------------------------------------------------------------------------------ whole motions */
 
 static void carry_frame(const ff_rig *rig, const ff_retarget *retarget, const ff_clip *clip,
@@ -232,7 +177,7 @@ ff_status ff_motion_from_clip(const ff_rig *rig, const ff_clip *clip, const ff_p
                FF_ROLE_JOINT_COUNT * sizeof *out->rotations);
     }
     status = settle_root(out, error);
-    if (status == FF_OK) status = stand_on_floor(rig, out, plants, error);
+    if (status == FF_OK) status = ff_motion_stand(rig, out, plants, error);
     if (status != FF_OK) ff_motion_free(out);
     return status;
 }

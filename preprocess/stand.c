@@ -1,0 +1,86 @@
+#include "preprocess/stand.h"
+
+#include "preprocess/filter.h"
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/memory.h"
+#include "runtime/core/leg_ik.h"
+
+#include <stdlib.h>
+
+#define LEVEL_ENOUGH 0.001 /* m */
+
+static int ball_of(int foot)
+{
+    return foot ? FF_ROLE_BALL_R : FF_ROLE_BALL_L;
+}
+
+/* Median height of a foot's ball while it stands: over its flat stretches, over whole plants when there is no flat
+ * one. False when the foot never stands. scratch has room for every frame. */
+static bool planted_height(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int foot,
+                           double *scratch, double *out)
+{
+    int count = 0;
+    for (int pass = 0; pass < 2 && count == 0; ++pass) {
+        for (int p = 0; p < plants->count; ++p) {
+            const ff_plant *plant = &plants->items[p];
+            int from = pass ? plant->start : plant->flat_start, to = pass ? plant->end : plant->flat_end;
+            if (plant->foot != foot || from < 0) continue;
+            for (int k = from; k <= to && k < motion->frame_count && count < motion->frame_count; ++k) {
+                ff_vec3 at[FF_BODY_COUNT];
+                ff_motion_pose(rig, motion, k, at, NULL);
+                scratch[count++] = at[ball_of(foot)].y;
+            }
+        }
+    }
+    if (count > 0) *out = ff_filter_quantile(scratch, count, 0.5);
+    return count > 0;
+}
+
+static double lowest_ball(const ff_rig *rig, const ff_motion *motion, double *scratch)
+{
+    for (int k = 0; k < motion->frame_count; ++k) {
+        ff_vec3 at[FF_BODY_COUNT];
+        ff_motion_pose(rig, motion, k, at, NULL);
+        scratch[k] = ff_min(at[FF_ROLE_BALL_L].y, at[FF_ROLE_BALL_R].y);
+    }
+    return ff_filter_quantile(scratch, motion->frame_count, 0.05);
+}
+
+/* Move one foot up by rise in one frame; the foot keeps its rotation in the world. */
+static void raise_foot(const ff_rig *rig, ff_motion *motion, int frame, int foot, double rise)
+{
+    ff_vec3 at[FF_BODY_COUNT];
+    ff_quat world[FF_ROLE_JOINT_COUNT], *local = motion->rotations + (size_t)frame * FF_ROLE_JOINT_COUNT;
+    int hip = foot ? FF_ROLE_HIP_R : FF_ROLE_HIP_L, knee = hip + 1, ankle = hip + 2;
+    ff_motion_pose(rig, motion, frame, at, world);
+    ff_leg leg = {at[hip], at[knee], at[ankle], world[hip], world[knee], world[ankle]};
+    ff_leg_solve(&leg, at[hip], ff_add3(at[ankle], ff_v3(0.0, rise, 0.0)));
+    local[hip] = ff_quat_mul(ff_quat_conj(world[0]), leg.thigh);
+    local[knee] = ff_quat_mul(ff_quat_conj(leg.thigh), leg.shank);
+    local[ankle] = ff_quat_mul(ff_quat_conj(leg.shank), world[ankle]);
+}
+
+ff_status ff_motion_stand(const ff_rig *rig, ff_motion *motion, const ff_plants *plants, ff_error *error)
+{
+    size_t n = (size_t)motion->frame_count;
+    double *scratch = ff_calloc(n, sizeof *scratch);
+    if (!scratch) return ff_fail(error, FF_ERR_NO_MEMORY, "the floor of %d frames", motion->frame_count);
+    ff_vec3 rest[FF_BODY_COUNT];
+    ff_rig_rest_pose(rig, rest);
+    double height[2], rise;
+    bool left = planted_height(rig, motion, plants, FF_LEFT, scratch, &height[0]);
+    bool right = planted_height(rig, motion, plants, FF_RIGHT, scratch, &height[1]);
+    if (!left) height[0] = right ? height[1] : lowest_ball(rig, motion, scratch);
+    if (!right) height[1] = height[0];
+    free(scratch);
+    rise = rest[FF_ROLE_BALL_L].y - 0.5 * (height[0] + height[1]);
+    double apart =
+        0.5 * (height[1] - height[0]); /* what the left foot still has to go up, the right one down */
+    for (int k = 0; k < motion->frame_count; ++k) {
+        motion->hips[k].z += rise;
+        if (fabs(apart) < LEVEL_ENOUGH) continue;
+        raise_foot(rig, motion, k, FF_LEFT, apart);
+        raise_foot(rig, motion, k, FF_RIGHT, -apart);
+    }
+    return FF_OK;
+}
