@@ -112,6 +112,7 @@ static uint32_t nearest_limb(const ff_body_shape *shape, ff_vec3 p, double *join
     return best;
 }
 
+/* Weights fall with the distance of a bone's limbs; limbs of the other side pull only close to the middle. */
 static void set_weights(const ff_figure *figure, double scale, uint32_t owner, const double *distance,
                         ff_body_vertex *vertex)
 {
@@ -119,6 +120,7 @@ static void set_weights(const ff_figure *figure, double scale, uint32_t owner, c
     uint32_t joint[4] = {0};
     for (uint32_t j = 0; j < FF_JOINT_COUNT; ++j) {
         if (distance[j] > 1e8 || !are_near(figure, owner, j)) continue;
+        if (side_of(j) * (double)vertex->position[0] < -BLEND * scale) continue;
         double w = exp(-(distance[j] - distance[owner]) / (BLEND * scale));
         for (int k = 0; k < 4; ++k) { /* keep the four largest, in order */
             if (w <= weight[k]) continue;

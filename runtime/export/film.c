@@ -10,14 +10,13 @@
 enum {
     SHEET_WIDTH = 2000,
     MARGIN = 40,
-    PANEL_WIDTH = 952,
-    PANEL_HEIGHT = 430,
+    CROWD_HEIGHT = 876, /* of the four pictures of the crowd */
     PANEL_GAP = 16,
     HEAD = 110,
     POSES = 12,
     CELL_WIDTH = 160,
     CELL_GROUND = 34, /* below the ground line */
-    UPRIGHT = 300,    /* height of a strip seen from the side or the front */
+    UPRIGHT = 312,    /* height of a strip seen from the side or the front */
     ABOVE = 190,      /* and from above */
     LABEL = 44,       /* above each strip */
     TIMELINE = 70,
@@ -47,25 +46,43 @@ static void draw_title(const film *f)
     for (uint32_t i = 0; i < recording->agent_count; ++i)
         reached += ff_recording_track(recording, last, i)->reached;
     char text[160];
-    snprintf(text, sizeof text, "%u agents, %u at their goals after %.1f s. Ground tiles are 1 m.",
+    snprintf(text, sizeof text, "%u agents, %u reached their goals in %.1f s. Ground tiles are 1 m.",
              recording->agent_count, reached, last * recording->step);
     const char *title = f->scene->title[0] ? f->scene->title : ff_scene_kind_name(f->scene->kind);
     ff_picture_text(f->picture, (ff_pixel){MARGIN, 56}, 24, FF_ALIGN_LEFT, ink, title);
     ff_picture_text(f->picture, (ff_pixel){MARGIN, 88}, 14, FF_ALIGN_LEFT, grey, text);
 }
 
+/* The last pose with at least half of the agents still in the scene. */
+static uint32_t last_crowded_pose(const ff_recording *recording)
+{
+    for (uint32_t pose = recording->pose_count - 1; pose > 0; --pose) {
+        uint32_t present = 0;
+        for (uint32_t i = 0; i < recording->agent_count; ++i)
+            present += ff_recording_track(recording, pose * recording->pose_stride, i)->present;
+        if (2 * present >= recording->agent_count) return pose;
+    }
+    return 0;
+}
+
 static ff_status draw_crowd(const film *f, ff_error *error)
 {
     static const double moments[4] = {0.07, 0.30, 0.55, 1.0};
-    const int width = PANEL_WIDTH * FF_PICTURE_SCALE, height = PANEL_HEIGHT * FF_PICTURE_SCALE;
+    /* Two by two, or below each other where the crowd is long and narrow. */
+    const int columns = ff_film_crowd_is_long(f->recording) ? 1 : 2, rows = 4 / columns;
+    const int panel_width = (SHEET_WIDTH - 2 * MARGIN - (columns - 1) * PANEL_GAP) / columns;
+    const int panel_height = (CROWD_HEIGHT - (rows - 1) * PANEL_GAP) / rows;
+    const int width = panel_width * FF_PICTURE_SCALE, height = panel_height * FF_PICTURE_SCALE;
     ff_stage stage;
     ff_raster raster = {0};
     ff_status status = ff_stage_create(f->figure, COARSE, &stage, error);
     if (status == FF_OK) status = ff_raster_create(width, height, &raster, error);
-    ff_camera camera = ff_film_crowd_camera(f->scene, f->recording, width, height);
+    ff_camera camera = ff_film_crowd_camera(f->recording, width, height);
+    uint32_t last = last_crowded_pose(f->recording);
     for (int k = 0; k < 4 && status == FF_OK; ++k) {
-        uint32_t pose = (uint32_t)(moments[k] * (f->recording->pose_count - 1) + 0.5);
-        int x = MARGIN + (k % 2) * (PANEL_WIDTH + PANEL_GAP), y = HEAD + (k / 2) * (PANEL_HEIGHT + PANEL_GAP);
+        uint32_t pose = (uint32_t)(moments[k] * last + 0.5);
+        int x = MARGIN + (k % columns) * (panel_width + PANEL_GAP);
+        int y = HEAD + (k / columns) * (panel_height + PANEL_GAP);
         char text[32];
         ff_film_crowd_draw(&stage, f->scene, f->recording, pose, &camera, &raster);
         ff_picture_paste(f->picture, x, y, raster.rgb, width, height);
@@ -237,7 +254,7 @@ static ff_status draw_walk(const film *f, int top, ff_error *error)
 ff_status ff_film_write(const char *path, const ff_figure *figure, const ff_scene *scene,
                         const ff_recording *recording, ff_error *error)
 {
-    int walk = HEAD + 2 * PANEL_HEIGHT + PANEL_GAP;
+    int walk = HEAD + CROWD_HEIGHT;
     int height = walk + 3 * LABEL + 2 * UPRIGHT + ABOVE + TIMELINE + FOOT;
     film f = {figure, scene, recording, NULL};
     ff_status status = ff_picture_create(SHEET_WIDTH, height, paper, &f.picture, error);

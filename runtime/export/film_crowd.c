@@ -2,7 +2,9 @@
 
 #define ELEVATION (32.0 * FF_DEG)
 #define VIEW_ANGLE (30.0 * FF_DEG)
-#define WALL_HEIGHT 1.0 /* m, low enough to look over */
+#define WALL_HEIGHT 0.4    /* m: one sees feet behind it */
+#define LONG 2.5           /* longer than wide */
+#define GROUND_MARGIN 14.0 /* m, tiles beyond everybody's paths */
 #define HEAD_ROOM 1.8
 
 static void include(ff_vec3 *low, ff_vec3 *high, ff_vec2 p)
@@ -19,6 +21,14 @@ static void bounds(const ff_recording *recording, ff_vec3 *low, ff_vec3 *high)
     for (uint32_t k = 0; k < recording->step_count; k += 5)
         for (uint32_t i = 0; i < recording->agent_count; ++i)
             include(low, high, ff_recording_track(recording, k, i)->position);
+}
+
+bool ff_film_crowd_is_long(const ff_recording *recording)
+{
+    ff_vec3 low, high;
+    bounds(recording, &low, &high);
+    double x = high.x - low.x, z = high.z - low.z;
+    return ff_max(x, z) > LONG * ff_min(x, z);
 }
 
 /* Whether every corner of the box is on the picture; the box of what is seen goes to seen[4] (left, top, right,
@@ -40,9 +50,8 @@ static bool sees(const ff_camera *camera, ff_vec3 low, ff_vec3 high, int width, 
     return seen[2] - seen[0] < 0.94 * width && seen[3] - seen[1] < 0.94 * height;
 }
 
-ff_camera ff_film_crowd_camera(const ff_scene *scene, const ff_recording *recording, int width, int height)
+ff_camera ff_film_crowd_camera(const ff_recording *recording, int width, int height)
 {
-    (void)scene;
     ff_vec3 low, high;
     bounds(recording, &low, &high);
     /* Pictures are wide: look along the shorter side of where people go. */
@@ -68,7 +77,8 @@ static void draw_ground(const ff_recording *recording, const ff_camera *camera, 
     static const ff_colour tile[2] = {{214, 213, 207}, {222, 221, 216}};
     ff_vec3 low, high;
     bounds(recording, &low, &high);
-    double x0 = floor(low.x) - 2.0, x1 = ceil(high.x) + 2.0, z0 = floor(low.z) - 2.0, z1 = ceil(high.z) + 2.0;
+    double x0 = floor(low.x) - GROUND_MARGIN, x1 = ceil(high.x) + GROUND_MARGIN;
+    double z0 = floor(low.z) - GROUND_MARGIN, z1 = ceil(high.z) + GROUND_MARGIN;
     for (double z = z0; z < z1; z += 1.0)
         for (double x = x0; x < x1; x += 1.0) {
             ff_vec3 corners[4] = {ff_v3(x, 0.0, z), ff_v3(x + 1.0, 0.0, z), ff_v3(x + 1.0, 0.0, z + 1.0),

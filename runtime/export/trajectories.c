@@ -15,14 +15,17 @@
 static const ff_colour paper = {252, 251, 248}, ink = {40, 42, 48}, faint = {232, 231, 226},
                        grey = {130, 132, 138};
 
-/* World x runs to the left on the picture when z runs up, so that left and right are those seen from above. */
+/* Seen from above: z runs up and x to the left, or, where that suits the scene better, z to the right and x up. */
 typedef struct map {
     ff_vec2 low, high; /* m, plane */
     double scale;      /* pixels per m */
+    bool lying;        /* z to the right */
 } map;
 
 static ff_pixel to_pixel(const map *m, ff_vec2 p)
 {
+    if (m->lying)
+        return (ff_pixel){MARGIN + (p.a - m->low.a) * m->scale, HEAD + (m->high.b - p.b) * m->scale};
     return (ff_pixel){MARGIN + (m->high.b - p.b) * m->scale, HEAD + (m->high.a - p.a) * m->scale};
 }
 
@@ -34,7 +37,7 @@ static void include(map *m, ff_vec2 p)
 
 static map fit(const ff_scene *scene, const ff_recording *recording)
 {
-    map m = {ff_v2(1e9, 1e9), ff_v2(-1e9, -1e9), 1.0};
+    map m = {ff_v2(1e9, 1e9), ff_v2(-1e9, -1e9), 1.0, false};
     for (uint32_t i = 0; i < ff_scene_agent_count(scene); ++i) {
         include(&m, ff_scene_agents(scene)[i].goal);
         for (uint32_t k = 0; k < recording->step_count; ++k)
@@ -46,12 +49,7 @@ static map fit(const ff_scene *scene, const ff_recording *recording)
     }
     m.low = ff_sub2(m.low, ff_v2(0.8, 0.8));
     m.high = ff_add2(m.high, ff_v2(0.8, 0.8));
-    /* A corridor seen from above would be a ribbon: leave it room for title and scale bar. */
-    double lack = 0.35 * (m.high.a - m.low.a) - (m.high.b - m.low.b);
-    if (lack > 0.0) {
-        m.low.b -= 0.5 * lack;
-        m.high.b += 0.5 * lack;
-    }
+    m.lying = m.high.a - m.low.a > 1.2 * (m.high.b - m.low.b);
     m.scale = PICTURE_SIDE / ff_max(m.high.a - m.low.a, m.high.b - m.low.b);
     return m;
 }
@@ -121,8 +119,8 @@ static void draw_title(ff_picture *picture, const ff_scene *scene, const ff_reco
     for (uint32_t i = 0; i < recording->agent_count; ++i)
         reached += ff_recording_track(recording, last, i)->reached;
     char text[160];
-    snprintf(text, sizeof text, "%u agents, %u at their goals after %.1f s", recording->agent_count, reached,
-             last * recording->step);
+    snprintf(text, sizeof text, "%u agents, %u reached their goals in %.1f s", recording->agent_count,
+             reached, last * recording->step);
     const char *title = scene->title[0] ? scene->title : ff_scene_kind_name(scene->kind);
     ff_picture_text(picture, (ff_pixel){MARGIN, 58}, 24, FF_ALIGN_LEFT, ink, title);
     ff_picture_text(picture, (ff_pixel){MARGIN, 88}, 14, FF_ALIGN_LEFT, grey, text);
@@ -132,8 +130,9 @@ ff_status ff_trajectories_write(const char *path, const ff_scene *scene, const f
                                 ff_error *error)
 {
     map m = fit(scene, recording);
-    int width = (int)((m.high.b - m.low.b) * m.scale + 2.0 * MARGIN);
-    int height = (int)((m.high.a - m.low.a) * m.scale + HEAD + FOOT);
+    double along = (m.high.a - m.low.a) * m.scale, aside = (m.high.b - m.low.b) * m.scale;
+    int width = (int)((m.lying ? along : aside) + 2.0 * MARGIN);
+    int height = (int)((m.lying ? aside : along) + HEAD + FOOT);
     ff_pixel *points = ff_calloc(recording->step_count, sizeof *points);
     ff_picture *picture = NULL;
     ff_status status = points ? ff_picture_create(width, height, paper, &picture, error)
