@@ -1,0 +1,187 @@
+/* crowd.glb taken apart by hand: container, accessors within bounds, shared body, poses as recorded. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+
+#include "runtime/export/glb.h"
+#include "runtime/tool/json.h"
+#include "tests/export/folder.h"
+#include "tests/export/walker.h"
+
+typedef struct document {
+    ff_file file;
+    ff_json json;
+    const unsigned char *binary;
+    size_t binary_size;
+    ff_scene scene;
+    ff_recording recording;
+} document;
+
+static uint32_t word_at(const char *data, size_t at)
+{
+    uint32_t word;
+    memcpy(&word, data + at, sizeof word);
+    return word;
+}
+
+static int open_document(void **state)
+{
+    static document d;
+    ff_error error;
+    ff_figure figure;
+    if (folder_create(state) != 0) return -1;
+    walker_figure(&figure);
+    walker_scene("{\"kind\": \"circle\", \"agents\": 6, \"walls\": [[-9, -9, 9, -9]]}", &d.scene);
+    walker_record(&d.scene, 1.0, &d.recording);
+    FF_ASSERT_OK(ff_glb_write(folder_path("crowd.glb"), &figure, &d.scene, &d.recording, &error), error);
+    d.file = folder_read("crowd.glb");
+    assert_true(d.file.size > 28);
+    assert_int_equal(word_at(d.file.data, 0), 0x46546C67);
+    assert_int_equal(word_at(d.file.data, 4), 2);
+    assert_int_equal(word_at(d.file.data, 8), d.file.size);
+    uint32_t text_size = word_at(d.file.data, 12);
+    assert_int_equal(word_at(d.file.data, 16), 0x4E4F534A);
+    assert_int_equal(text_size % 4, 0);
+    FF_ASSERT_OK(ff_json_parse(d.file.data + 20, text_size, "crowd.glb", &d.json, &error), error);
+    d.binary_size = word_at(d.file.data, 20 + text_size);
+    assert_int_equal(word_at(d.file.data, 24 + text_size), 0x004E4942);
+    d.binary = (const unsigned char *)d.file.data + 28 + text_size;
+    assert_int_equal(28 + text_size + d.binary_size, d.file.size);
+    *state = &d;
+    return 0;
+}
+
+static int close_document(void **state)
+{
+    static const char *const names[] = {"crowd.glb", NULL};
+    document *d = *state;
+    ff_file_unmap(&d->file);
+    ff_json_free(&d->json);
+    ff_recording_free(&d->recording);
+    ff_scene_free(&d->scene);
+    return folder_remove(names);
+}
+
+static json_int_t integer(const json_t *object, const char *key)
+{
+    return json_integer_value(json_object_get(object, key));
+}
+
+static const json_t *list(const document *d, const char *key)
+{
+    return json_object_get(d->json.root, key);
+}
+
+static size_t accessor_bytes(const json_t *accessor)
+{
+    const char *type = json_string_value(json_object_get(accessor, "type"));
+    size_t width = strcmp(type, "SCALAR") == 0 ? 1
+                   : strcmp(type, "VEC3") == 0 ? 3
+                   : strcmp(type, "VEC4") == 0 ? 4
+                                               : 16;
+    json_int_t component = integer(accessor, "componentType");
+    size_t each = component == 5121 ? 1 : component == 5122 ? 2 : 4;
+    return width * each;
+}
+
+static void test_every_accessor_lies_inside_its_view_and_every_view_inside_the_file(void **state)
+{
+    const document *d = *state;
+    const json_t *views = list(d, "bufferViews"), *accessors = list(d, "accessors");
+    size_t index;
+    const json_t *item;
+    json_array_foreach((json_t *)views, index, item)
+    {
+        json_int_t offset = integer(item, "byteOffset"), length = integer(item, "byteLength");
+        assert_int_equal(offset % 4, 0);
+        assert_true(length > 0 && (size_t)(offset + length) <= d->binary_size);
+    }
+    json_array_foreach((json_t *)accessors, index, item)
+    {
+        const json_t *view = json_array_get(views, (size_t)integer(item, "bufferView"));
+        size_t end =
+            (size_t)integer(item, "byteOffset") + (size_t)integer(item, "count") * accessor_bytes(item);
+        assert_non_null(view);
+        assert_true(end <= (size_t)integer(view, "byteLength"));
+    }
+}
+
+static void test_agents_share_vertices_and_bind_matrices(void **state)
+{
+    const document *d = *state;
+    const json_t *skins = list(d, "skins"), *meshes = list(d, "meshes");
+    assert_int_equal(json_array_size(skins), 6);
+    for (size_t i = 1; i < 6; ++i) {
+        const json_t *skin = json_array_get(skins, i);
+        assert_int_equal(integer(skin, "inverseBindMatrices"),
+                         integer(json_array_get(skins, 0), "inverseBindMatrices"));
+        assert_int_equal(json_array_size(json_object_get(skin, "joints")), FF_JOINT_COUNT);
+    }
+    json_int_t shared = -1;
+    size_t bodies = 0, m;
+    const json_t *mesh;
+    json_array_foreach((json_t *)meshes, m, mesh)
+    {
+        const json_t *primitives = json_object_get(mesh, "primitives");
+        for (size_t p = 0; p < json_array_size(primitives); ++p) {
+            const json_t *attributes = json_object_get(json_array_get(primitives, p), "attributes");
+            if (!json_object_get(attributes, "JOINTS_0")) continue;
+            if (shared < 0) shared = integer(attributes, "POSITION");
+            assert_int_equal(integer(attributes, "POSITION"), shared);
+            ++bodies;
+        }
+    }
+    assert_true(bodies >= 5);
+}
+
+static void test_only_joints_that_move_have_channels(void **state)
+{
+    const document *d = *state;
+    const json_t *animation = json_array_get(list(d, "animations"), 0);
+    /* Of the walker move: the hips' place; shoulders, thighs, shanks. */
+    assert_int_equal(json_array_size(json_object_get(animation, "channels")), 6 * (1 + 6));
+}
+
+static const void *accessor_data(const document *d, json_int_t index)
+{
+    const json_t *accessor = json_array_get(list(d, "accessors"), (size_t)index);
+    const json_t *view = json_array_get(list(d, "bufferViews"), (size_t)integer(accessor, "bufferView"));
+    return d->binary + integer(view, "byteOffset") + integer(accessor, "byteOffset");
+}
+
+static void test_hips_and_rotations_are_those_recorded(void **state)
+{
+    const document *d = *state;
+    const json_t *animation = json_array_get(list(d, "animations"), 0);
+    const json_t *channels = json_object_get(animation, "channels");
+    const json_t *samplers = json_object_get(animation, "samplers");
+    uint32_t agent = 0, places = 0;
+    for (size_t c = 0; c < json_array_size(channels); ++c) {
+        const json_t *channel = json_array_get(channels, c);
+        const json_t *target = json_object_get(channel, "target");
+        const json_t *sampler = json_array_get(samplers, (size_t)integer(channel, "sampler"));
+        const json_t *node = json_array_get(list(d, "nodes"), (size_t)integer(target, "node"));
+        const char *name = json_string_value(json_object_get(node, "name"));
+        const void *data = accessor_data(d, integer(sampler, "output"));
+        const float *times = accessor_data(d, integer(sampler, "input"));
+        FF_ASSERT_NEAR((double)times[15], 0.5, 1e-6);
+        if (strcmp(name, "hips") == 0) {
+            agent = places++; /* an agent's first channel */
+            assert_memory_equal((const float *)data + 3 * 15, ff_recording_raw_hips(&d->recording, 15, agent),
+                                12);
+        } else if (strcmp(name, "left hip") == 0) {
+            assert_memory_equal((const int16_t *)data + 4 * 15,
+                                ff_recording_raw_rotations(&d->recording, 15, agent)[FF_JOINT_HIP_L], 8);
+        }
+    }
+    assert_int_equal(places, 6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_accessor_lies_inside_its_view_and_every_view_inside_the_file),
+        cmocka_unit_test(test_agents_share_vertices_and_bind_matrices),
+        cmocka_unit_test(test_only_joints_that_move_have_channels),
+        cmocka_unit_test(test_hips_and_rotations_are_those_recorded),
+    };
+    return cmocka_run_group_tests(tests, open_document, close_document);
+}
