@@ -271,10 +271,12 @@ static ff_status explain_row(reader *r, bool *dropped)
         return ff_text_fail(&r->text, p, FF_ERR_PARSE, r->error,
                             "the motion row has %d values, the skeleton needs %d", found, r->channels);
     if (found < r->channels) return ff_text_bad_number(&r->text, p, "a motion value", r->error);
+    const char *surplus = p;
     for (double value; (p = ff_number_scan(p, &value)) != NULL; p = ff_skip_blanks(p))
         ++found;
-    return ff_text_fail(&r->text, r->text.cursor, FF_ERR_PARSE, r->error,
-                        "the motion row has %d or more values, the skeleton needs %d", found, r->channels);
+    return ff_text_fail(&r->text, surplus, FF_ERR_PARSE, r->error,
+                        "the motion row goes on (%d values or more), the skeleton needs %d", found,
+                        r->channels);
 }
 
 static void store_frame(const reader *r)

@@ -10,10 +10,11 @@ ff_status ff_text_start(ff_text *text, const char *data, size_t size, const char
     memset(text, 0, sizeof *text);
     text->name = name;
     text->line = 1;
-    if (size == 0 || data[size - 1] != '\n') {
+    if (size == 0) return ff_fail_at(error, FF_ERR_NO_DATA, name, 1, 1, "the file is empty");
+    if (data[size - 1] != '\n') {
         text->copy = malloc(size + 1);
         if (!text->copy) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the text of %s", name);
-        if (size > 0) memcpy(text->copy, data, size);
+        memcpy(text->copy, data, size);
         text->copy[size++] = '\n';
         data = text->copy;
     }
