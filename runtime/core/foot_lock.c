@@ -1,7 +1,6 @@
 #include "runtime/core/foot_lock.h"
 
 #define SLOPE_LIMIT 0.6         /* m/s, study section 4.2 */
-#define YAW_SLOPE_LIMIT 2.0     /* rad/s */
 #define PLAN_SPEED 2.5          /* m/s, how fast a footprint may move early in swing; none at the end */
 #define PLAN_TURN 6.0           /* rad/s, the same for its yaw */
 #define CLOSE_UP_SPEED 0.25     /* m/s (turning counted as in the blend space) */
@@ -64,25 +63,12 @@ static ff_foothold standing_slope(ff_foothold speed)
     double pace = sqrt(speed.a * speed.a + speed.b * speed.b);
     double keep = pace > SLOPE_LIMIT ? SLOPE_LIMIT / pace : 1.0;
     return (ff_foothold){-speed.a * keep, -speed.b * keep, -ff_clamp(speed.height, -SLOPE_LIMIT, SLOPE_LIMIT),
-                         -ff_clamp(speed.yaw, -YAW_SLOPE_LIMIT, YAW_SLOPE_LIMIT)};
+                         0.0};
 }
 
 static double phase_to(double from, double to)
 {
     return ff_phase_wrap(to - from);
-}
-
-void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot)
-{
-    double start, length;
-    ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
-    state->planted = 0;
-    state->from_pitch = state->pitch - ff_sample_foot(scene->space, scene->cursor, foot).pitch;
-    state->from = subtract(state->now, ff_foot_of_clip(scene, foot));
-    state->slope = standing_slope(clip_foot_speed(scene, foot, scene->phase, 0.0));
-    state->elapsed = 0.0;
-    state->progress = 0.0;
-    state->phase_left = phase_to(scene->phase, start);
 }
 
 void ff_foot_land(ff_gait_foot *state, double ball_rest)
@@ -93,11 +79,41 @@ void ff_foot_land(ff_gait_foot *state, double ball_rest)
     state->now = state->lock;
 }
 
+/* How far the ball must be over its rest height for the heel not to be in the floor when the toes point up. */
+static double heel_rise(const ff_body_frame *body, int foot, double pitch)
+{
+    if (pitch <= 0.0) return 0.0;
+    double sine, cosine;
+    ff_sincos(pitch, &sine, &cosine);
+    int ankle = FF_JOINT_ANKLE_L + foot * FF_JOINT_LEG_STRIDE;
+    ff_vec3 heel = ff_sub3(body->heel[foot], body->offset[ankle + 1]);
+    return ff_max(heel.y * (1.0 - cosine) - heel.z * sine, 0.0);
+}
+
 void ff_foot_hold(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing)
 {
     ff_foot_sample sample = ff_sample_foot(scene->space, scene->cursor, foot);
     state->now = state->lock;
     state->pitch = sample.pitch * (1.0 - standing);
+    state->now.height += heel_rise(&scene->space->body, foot, state->pitch);
+}
+
+void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing)
+{
+    double start, length;
+    ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
+    state->planted = 0;
+    ff_foot_hold(scene, state, foot, standing); /* the offsets below are between things of one moment */
+    state->from_pitch = state->pitch - ff_sample_foot(scene->space, scene->cursor, foot).pitch;
+    state->from = subtract(state->now, ff_foot_of_clip(scene, foot));
+    state->slope = standing_slope(clip_foot_speed(scene, foot, scene->phase, 0.0));
+    /* The yaw of a foot on its toes means little, so in swing the clip's is not followed: it leads from lock to lock
+     * in the frame of the body. */
+    state->from.yaw = ff_wrap(state->now.yaw - scene->heading);
+    state->slope.yaw = -scene->rates.turn;
+    state->elapsed = 0.0;
+    state->progress = 0.0;
+    state->phase_left = phase_to(scene->phase, start);
 }
 
 static double hermite(double s, double from, double slope_from, double to, double slope_to)
@@ -170,17 +186,14 @@ static void replan(ff_gait_foot *state, ff_foothold wanted, double progress, dou
     state->lock.height = wanted.height;
 }
 
-/* Raise the ball to an arc over the floor, and the heel over the floor when the toes point up. */
+/* Raise the ball to an arc over the floor, and the heel over the floor. */
 static void keep_clear(const ff_body_frame *body, ff_gait_foot *state, int foot)
 {
-    double arc = 4.0 * state->progress * (1.0 - state->progress), sine, cosine;
+    double arc = 4.0 * state->progress * (1.0 - state->progress);
     double least = body->ball_rest + LEAST_LIFT * arc * arc, below = least - state->now.height;
     double round = 0.01 * arc; /* m: a rounded corner where the arc takes over, so that the knee feels none */
     state->now.height += 0.5 * (below + sqrt(below * below + round * round));
-    ff_sincos(state->pitch, &sine, &cosine);
-    int ankle = FF_JOINT_ANKLE_L + foot * FF_JOINT_LEG_STRIDE;
-    ff_vec3 heel = ff_sub3(body->heel[foot], body->offset[ankle + 1]);
-    state->now.height = ff_max(state->now.height, body->ball_rest + heel.y * (1.0 - cosine) - heel.z * sine);
+    state->now.height = ff_max(state->now.height, body->ball_rest + heel_rise(body, foot, state->pitch));
 }
 
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
@@ -213,8 +226,9 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     state->now.b = clip.b + hermite(s, state->from.b, state->slope.b * span, to.b, slope.b * span);
     state->now.height = clip.height + hermite(s, state->from.height, state->slope.height * span, to.height,
                                               slope.height * span);
-    state->now.yaw =
-        clip.yaw + hermite(s, state->from.yaw, state->slope.yaw * span, to.yaw, slope.yaw * span);
+    double turn = scene->rates.turn * span,
+           to_yaw = ff_wrap(state->lock.yaw - scene->heading - scene->rates.turn * time);
+    state->now.yaw = scene->heading + hermite(s, state->from.yaw, state->slope.yaw * span, to_yaw, -turn);
     state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
     keep_clear(&scene->space->body, state, foot);
     return false;

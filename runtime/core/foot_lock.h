@@ -31,12 +31,12 @@ ff_foothold ff_foot_of_clip(const ff_foot_scene *scene, int foot);
 void ff_foot_neutral(const ff_foot_scene *scene, int foot, double time, ff_foothold *out);
 
 /* The foot leaves the ground: the offset it has from the clip's foot starts the swing. */
-void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot);
+void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
 
 /* The foot lands and stays. */
 void ff_foot_land(ff_gait_foot *state, double ball_rest);
 
-/* One step of a planted foot; share_standing 0 to 1 flattens it. */
+/* One step of a planted foot; standing, 0 to 1, flattens it. */
 void ff_foot_hold(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
 
 /* One step of a swing; other is the foot on the ground. Returns true when it is time to land. */

@@ -154,7 +154,7 @@ static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
 {
     ff_gait_foot *state = &gait->foot[foot];
     if (state->planted && gait->mode == FF_GAIT_STEP && time_to_lift(scene, gait, foot))
-        ff_foot_lift(scene, state, foot);
+        ff_foot_lift(scene, state, foot, ff_smooth(gait->stand));
     if (state->planted) {
         ff_foot_hold(scene, state, foot, ff_smooth(gait->stand));
     } else if (ff_foot_swing(scene, state, &gait->foot[1 - foot], foot)) {

@@ -34,22 +34,40 @@ static void apply_style(const ff_blend_space *space, const ff_gait *gait, ff_qua
     rotations[FF_JOINT_NECK] = ff_quat_mul(ff_quat_conj(stoop), rotations[FF_JOINT_NECK]);
 }
 
-/* A planted foot out of reach lifts its heel about the ball before anything slides: the pitch, from the wanted one
- * downward, at which the ankle comes within reach, by bisection. */
-static double pitch_in_reach(const ff_body_frame *body, const ff_gait_foot *state, int foot, ff_vec3 hip,
-                             double reach)
+#define FLAT_TO (5.0 * FF_DEG) /* pitch up to which a foot has no roll of its own */
+#define FREE_FROM (25.0 * FF_DEG)
+
+/* A foot near the ground is set by its yaw and pitch alone, so that it lies flat. One on its toes or in the air is
+ * turned as in the clip, but for the yaw, taken as the twist about the vertical: the heading of a foot that hangs
+ * straight down says nothing. */
+static ff_quat foot_rotation(const ff_gait_foot *state, ff_quat clip)
 {
-    double low = -75.0 * FF_DEG, high = state->pitch;
+    ff_quat flat = ff_gait_foot_rotation(state->now.yaw, state->pitch);
+    double share = ff_smooth((fabs(state->pitch) - FLAT_TO) / (FREE_FROM - FLAT_TO));
+    if (share <= 0.0) return flat;
+    double twist = 2.0 * ff_atan2(clip.y, clip.w);
+    ff_quat free = ff_quat_mul(ff_quat_yaw(state->now.yaw - twist), clip);
+    return ff_quat_nlerp(flat, free, share);
+}
+
+/* A planted foot out of reach lifts its heel about the ball before anything slides: by the least angle that brings the
+ * ankle within reach, found by bisection. */
+static ff_quat heel_in_reach(const ff_body_frame *body, const ff_gait_foot *state, int foot, ff_vec3 hip,
+                             ff_quat rotation, double reach)
+{
+    ff_vec3 lateral = ff_v3(ff_cos(state->now.yaw), 0.0, -ff_sin(state->now.yaw));
+    double low = 0.0, high = 60.0 * FF_DEG;
     for (int i = 0; i < 12; ++i) {
         double middle = 0.5 * (low + high);
-        ff_vec3 ankle = ff_gait_ankle(body, foot, state->now, ff_gait_foot_rotation(state->now.yaw, middle));
+        ff_quat raised = ff_quat_mul(ff_quat_axis(lateral, middle), rotation);
+        ff_vec3 ankle = ff_gait_ankle(body, foot, state->now, raised);
         if (ff_length3(ff_sub3(ankle, hip)) <= reach) {
-            low = middle;
-        } else {
             high = middle;
+        } else {
+            low = middle;
         }
     }
-    return low;
+    return ff_quat_mul(ff_quat_axis(lateral, high), rotation);
 }
 
 /* Toes bend up where the floor is in their way: at push-off, and in mid swing to keep clear of it. */
@@ -86,10 +104,10 @@ static void pose_leg(const ff_body_frame *body, const ff_gait_foot *state, int f
     int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
     ff_leg leg = leg_of_clip(body, hips, hips_turn, rotations, joint);
     double reach = FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]);
-    leg.foot = ff_gait_foot_rotation(state->now.yaw, state->pitch);
+    leg.foot = foot_rotation(state, leg.foot);
     ff_vec3 ankle = ff_gait_ankle(body, foot, state->now, leg.foot);
     if (state->planted && ff_length3(ff_sub3(ankle, leg.hip)) > reach) {
-        leg.foot = ff_gait_foot_rotation(state->now.yaw, pitch_in_reach(body, state, foot, leg.hip, reach));
+        leg.foot = heel_in_reach(body, state, foot, leg.hip, leg.foot, reach);
         ankle = ff_gait_ankle(body, foot, state->now, leg.foot);
     }
     ff_leg_solve(&leg, leg.hip, ankle);

@@ -12,9 +12,10 @@ typedef struct ff_foothold {
 } ff_foothold;
 
 typedef struct ff_gait_foot {
-    ff_foothold lock;  /* planted: where it stands; in swing: where it will land */
-    ff_foothold now;   /* where the ball is */
-    ff_foothold from;  /* in swing: offset from the clip's foot when it left the ground */
+    ff_foothold lock; /* planted: where it stands; in swing: where it will land */
+    ff_foothold now;  /* where the ball is */
+    ff_foothold
+        from; /* in swing: offset from the clip's foot when it left the ground (yaw: from the heading) */
     ff_foothold slope; /* 1/s, of that offset */
     double pitch;      /* rad, toes up + */
     double from_pitch; /* rad, in swing: offset from the clip's pitch when it left the ground */
