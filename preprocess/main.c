@@ -1,4 +1,5 @@
 /* footfall-pack - makes motion packs from clips, and shows what is in clips and packs. */
+#include "mocap/generator/generator.h"
 #include "preprocess/build.h"
 #include "preprocess/plants_command.h"
 #include "runtime/tool/command_line.h"
@@ -7,6 +8,7 @@ static const ff_subcommand commands[] = {
     {"build", "make a motion pack from clips", ff_build_command},
     {"inspect", "say what is in a motion pack", ff_inspect_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
+    {"generate", "write the built-in clips", ff_generate_command},
     {0},
 };
 

@@ -78,15 +78,16 @@ static ff_foot_pose arriving(const ff_plan *plan, const ff_footing *next, const 
 {
     ff_root root = ff_plan_root(plan, next->contact);
     ff_vec2 travel = ff_from_frame2(ff_fwd2(root.heading), ff_v2(root.forward, root.left));
-    double keep = plan->style.run ? 0.36 : 0.34, speed = ff_length2(travel);
+    double speed = ff_length2(travel), left_over = plan->style.run ? 0.36 * speed : 0.22 + 0.19 * speed;
+    if (speed < 0.15) left_over = speed;
     /* a foot that lands flat is set down, not laid down */
     double flat = 1.0 - ff_smooth(next->pitch_contact / (12.0 * FF_DEG));
-    double fall = plan->style.run ? 0.45 : 0.02 + 0.08 * speed + 0.28 * flat;
+    double fall = plan->style.run ? 0.45 : 0.10 + 0.03 * speed + 0.27 * flat;
     ff_foot_pose almost = *landing;
     if (next->flat > next->contact)
         almost.pitch += INSTANT * SLAP * next->pitch_contact / (next->flat - next->contact);
     ff_vec3 heel = ff_foot_heel(landing);
-    heel = ff_sub3(heel, ff_ground(ff_scale2(travel, keep * INSTANT), -fall * INSTANT));
+    heel = ff_sub3(heel, ff_ground(ff_scale2(ff_unit2(travel), left_over * INSTANT), -fall * INSTANT));
     almost.ankle = ff_sub3(heel, ff_quat_rotate(ff_foot_rotation(&almost), ankle_to_heel));
     return almost;
 }

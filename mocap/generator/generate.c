@@ -1,3 +1,4 @@
+#include "mocap/generator/capture.h"
 #include "mocap/generator/feet.h"
 #include "mocap/generator/gait_data.h"
 #include "mocap/generator/generator.h"
@@ -91,12 +92,12 @@ static int by_start(const void *a, const void *b)
 }
 
 /* Played backward, a foot lands on its ball while the toes already touch, and leaves with the toes up: each event is
- * put near the middle of its roll. */
+ * put inside its roll. */
 static ff_footing backward(const ff_footing *footing)
 {
     ff_footing copy = *footing;
     copy.contact = ff_lerp(footing->contact, footing->flat, 0.4);
-    copy.toe_off = ff_lerp(footing->release, footing->toe_off, 0.4);
+    copy.toe_off = ff_lerp(footing->release, footing->toe_off, 0.75);
     return copy;
 }
 
@@ -163,11 +164,16 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
     if (options->person < 0 || options->person >= ff_generator_people())
         return ff_fail(error, FF_ERR_ARGUMENT, "person %d: choose 0 to %d", options->person,
                        ff_generator_people() - 1);
+    if (!(options->noise_mm >= 0.0 && options->skate_cm >= 0.0 && options->missing >= 0.0 &&
+          options->missing < 0.9))
+        return ff_fail(error, FF_ERR_ARGUMENT,
+                       "noise and skate must not be negative, missing must lie in [0, 0.9)");
     const ff_recipe *recipe = &ff_recipes[index];
     ff_plan *plan = ff_calloc(1, sizeof *plan);
     if (!plan) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the plan of %s", recipe->info.name);
     plan->style = recipe->style;
     plan->style.person = options->person;
+    plan->style.backward = recipe->reversed;
     plan->style.seed = options->seed;
     int frames = recipe->plan(recipe, plan);
     ff_status status = ff_body_clip(recipe->info.name, frames, &out->clip, error);
@@ -181,6 +187,7 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
     ff_plan_free(plan);
     free(plan);
     if (status == FF_OK && recipe->reversed) reverse(out);
+    if (status == FF_OK) ff_capture_spoil(options, (uint64_t)index, out);
     if (status != FF_OK) ff_generated_free(out);
     return status;
 }

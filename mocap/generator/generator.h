@@ -63,4 +63,8 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
                             ff_error *error);
 void ff_generated_free(ff_generated *generated);
 
+/* `footfall-pack generate`: write the clips, the truth about their plants (plants.csv) and a catalogue of them into a
+ * folder. Returns the exit status. */
+int ff_generate_command(int argc, char **argv);
+
 #endif

@@ -14,6 +14,7 @@ enum { FF_PLAN_MAX_KNOTS = 16, FF_PLAN_MAX_CONTACTS = 72, FF_PLAN_RATE = 480 };
 /* How this clip differs from the usual gait at its speed. */
 typedef struct ff_plan_style {
     bool run;
+    bool backward;    /* to be played in reverse: quick rolls, since toes touch and heels leave at once */
     double sink;      /* m, hips lower than usual (crouch) */
     double bend;      /* rad, trunk further forward */
     double arms;      /* arm swing relative to the measured one */
