@@ -31,10 +31,12 @@ static int overlap(const ff_true_plant *t, const ff_plant *p)
     return t->foot == p->foot ? to - from + 1 : 0;
 }
 
-/* Every true plant has one found plant of its own within tolerance, and there is no other. */
-static void compare_with_truth(const char *name, const ff_generated *made, const ff_plants *plants,
-                               int tolerance)
+/* Every true plant has one found plant of its own within tolerance, and there is no other. Returns how many plants
+ * are off by more than 3 frames. */
+static int compare_with_truth(const char *name, const ff_generated *made, const ff_plants *plants,
+                              int tolerance)
 {
+    int far_off = 0;
     if (plants->count != made->plant_count) {
         print_error("%s: %d plants found, %d are true\n", name, plants->count, made->plant_count);
         fail();
@@ -52,19 +54,26 @@ static void compare_with_truth(const char *name, const ff_generated *made, const
                         found->end);
             fail();
         }
+        far_off += start > 3 || end > 3;
     }
+    return far_off;
 }
 
+/* Noise of 2 mm moves single frames of slow, flat landings: there 1 plant in 100 may be off by up to 6 frames. */
 static void compare_all_with_truth(double noise_mm)
 {
+    int count = 0, far_off = 0, tolerance = noise_mm > 0.0 ? 6 : 3;
     for (int i = 0; i < ff_generator_count(); ++i) {
         const char *name = ff_generator_describe(i).name;
         ff_generated made = generate(name, noise_mm);
         ff_plants plants = find(&made.clip);
-        compare_with_truth(name, &made, &plants, 3);
+        far_off += compare_with_truth(name, &made, &plants, tolerance);
+        count += made.plant_count;
         ff_plants_free(&plants);
         ff_generated_free(&made);
     }
+    print_message("%d plants, %.1f mm of noise: %d off by more than 3 frames\n", count, noise_mm, far_off);
+    assert_true(far_off * 100 <= count);
 }
 
 static void finds_every_plant_of_generated_clips(void **state)
