@@ -138,7 +138,11 @@ $(fuzz_bin): $(B)/tests/%: $(B)/obj/tests/%.c.o $(room_libs)
 	$(link) $(libs) -fsanitize=fuzzer
 
 .PHONY: test unit e2e house soak bench test-programs fuzz-programs bench-programs
-test-programs: all $(test_bin) $(e2e_bin)
+test-programs: all $(test_bin) $(e2e_bin) $(B)/builtin.ffpack
+# A pack of the built-in clips, for whoever tests with a real one.
+$(B)/builtin.ffpack: $(B)/footfall-pack
+	echo "pack $@"
+	$< build -o $@ --quiet >/dev/null
 fuzz-programs: $(fuzz_bin)
 bench-programs: $(bench_bin)
 
