@@ -30,7 +30,7 @@ commands_work() { # FILE
 }
 commands_exist() { # FILE
     result=0
-    for target in $(blocks "$1" read | sed -n 's/.*\bmake \([a-z0-9-]*\).*/\1/p'); do
+    for target in $(blocks "$1" read | sed -n 's/.*\bmake \([a-z0-9-]*\)\([^a-z0-9=-].*\)*$/\1/p'); do
         grep -qE "^$target:" Makefile || { echo "no make target $target" && result=1; }
     done
     for script in $(blocks "$1" read | grep -oE '(scripts/[a-z-]+\.sh|\.ci/run)'); do
