@@ -71,7 +71,7 @@ static ff_vec3 gradient(const ff_body_shape *shape, ff_vec3 p)
 
 /* ------------------------------------------------------------------------------------------------ skinning */
 
-static int side_of(uint32_t joint)
+int ff_joint_side(uint32_t joint)
 {
     if ((joint >= FF_JOINT_CLAVICLE_L && joint <= FF_JOINT_WRIST_L) ||
         (joint >= FF_JOINT_HIP_L && joint <= FF_JOINT_BALL_L))
@@ -87,7 +87,7 @@ static bool is_parent(const ff_figure *figure, uint32_t parent, uint32_t joint)
 /* At most two bones apart, and not the other leg: they may move one piece of skin together. */
 static bool are_near(const ff_figure *figure, uint32_t i, uint32_t j)
 {
-    if (side_of(i) * side_of(j) < 0) return false;
+    if (ff_joint_side(i) * ff_joint_side(j) < 0) return false;
     if (i == j || is_parent(figure, i, j) || is_parent(figure, j, i)) return true;
     int32_t pi = figure->parent[i], pj = figure->parent[j];
     return pi == pj || (pi >= 0 && is_parent(figure, j, (uint32_t)pi)) ||
@@ -120,7 +120,7 @@ static void set_weights(const ff_figure *figure, double scale, uint32_t owner, c
     uint32_t joint[4] = {0};
     for (uint32_t j = 0; j < FF_JOINT_COUNT; ++j) {
         if (distance[j] > 1e8 || !are_near(figure, owner, j)) continue;
-        if (side_of(j) * (double)vertex->position[0] < -BLEND * scale) continue;
+        if (ff_joint_side(j) * (double)vertex->position[0] < -BLEND * scale) continue;
         double w = exp(-(distance[j] - distance[owner]) / (BLEND * scale));
         for (int k = 0; k < 4; ++k) { /* keep the four largest, in order */
             if (w <= weight[k]) continue;
@@ -212,7 +212,6 @@ static ff_status add_vertex(builder *b, uint32_t x, uint32_t y, uint32_t z, ff_e
     const ff_limb *limb = &b->shape->limbs[nearest_limb(b->shape, p, distance)];
     set_weights(b->figure, b->shape->scale, limb->joint, distance, vertex);
     vertex->cover = (uint8_t)cover_at(b->figure, b->shape, limb, p);
-    vertex->side = (int8_t)side_of(limb->joint);
     b->g.vertex[node(&b->g, x, y, z)] = (uint32_t)b->mesh->vertices.count - 1;
     return FF_OK;
 }

@@ -10,7 +10,6 @@ typedef struct ff_body_vertex {
     uint8_t joints[4];            /* unused ones are joint 0 with weight 0 */
     uint8_t weights[4];           /* sum 255 */
     uint8_t cover;                /* ff_cover */
-    int8_t side;                  /* 1 left limb, -1 right limb, 0 trunk and head */
 } ff_body_vertex;
 
 typedef struct ff_body_mesh {
@@ -22,6 +21,9 @@ typedef struct ff_body_mesh {
 /* cell: m, size of the details, about the length of an edge. */
 ff_status ff_body_mesh_make(const ff_figure *figure, double cell, ff_body_mesh *out, ff_error *error);
 void ff_body_mesh_free(ff_body_mesh *mesh);
+
+/* 1 for joints of left limbs, -1 of right ones, 0 for trunk and head. */
+int ff_joint_side(uint32_t joint);
 
 /* Where every vertex is in a pose: positions and normals [vertex count]. */
 void ff_body_mesh_skin(const ff_body_mesh *mesh, const ff_figure *figure, const ff_vec3 *joint_positions,

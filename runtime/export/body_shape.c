@@ -32,24 +32,26 @@ static void add_trunk(ff_body_shape *shape, const ff_figure *figure)
     for (int side = -1; side <= 1; side += 2) {
         double x = side;
         ff_vec3 seat = by(shape, base, 0.062 * x, 0.02, -0.022),
-                waist = by(shape, base, 0.045 * x, 0.21, 0.006);
-        ff_vec3 ribs = by(shape, base, 0.075 * x, length - 0.15, 0.004);
+                waist = by(shape, base, 0.047 * x, 0.20, 0.004);
+        ff_vec3 ribs = by(shape, base, 0.070 * x, length - 0.13, -0.002);
         add(shape, FF_JOINT_HIPS, FF_COVER_TROUSERS, by(shape, seat, 0.0, 0.04, 0.025), 0.094,
             by(shape, seat, 0.008 * x, -0.05, -0.012), 0.088, 0.03);
         add(shape, FF_JOINT_HIPS, FF_COVER_TROUSERS, by(shape, base, 0.06 * x, 0.05, 0.0), 0.092,
             by(shape, base, 0.05 * x, 0.10, 0.004), 0.090, 0.03);
-        add(shape, FF_JOINT_SPINE, FF_COVER_SHIRT, by(shape, base, 0.05 * x, 0.12, 0.006), 0.091, waist,
-            0.088, 0.03);
-        add(shape, FF_JOINT_CHEST, FF_COVER_SHIRT, waist, 0.088, ribs, 0.103, 0.04);
-        add(shape, FF_JOINT_CHEST, FF_COVER_SHIRT, ribs, 0.103,
-            by(shape, base, 0.06 * x, length - 0.05, -0.012), 0.082, 0.04);
+        add(shape, FF_JOINT_SPINE, FF_COVER_SHIRT, by(shape, base, 0.05 * x, 0.12, 0.004), 0.091, waist,
+            0.087, 0.03);
+        add(shape, FF_JOINT_CHEST, FF_COVER_SHIRT, waist, 0.087, ribs, 0.093, 0.04);
+        add(shape, FF_JOINT_CHEST, FF_COVER_SHIRT, ribs, 0.093,
+            by(shape, base, 0.085 * x, length - 0.045, -0.02), 0.072, 0.04);
     }
 }
 
 static void add_head(ff_body_shape *shape, const ff_figure *figure)
 {
     ff_vec3 neck = figure->rest[FF_JOINT_NECK], head = figure->rest[FF_JOINT_HEAD];
-    add(shape, FF_JOINT_NECK, FF_COVER_SKIN, by(shape, neck, 0.0, -0.02, 0.0), 0.060,
+    /* Some skeletons (CMU's) have their head joint in the middle of the head, ours is at the base of the skull. */
+    head.y = ff_min(head.y, figure->rest[FF_JOINT_SHOULDER_L].y + 0.105 * shape->scale);
+    add(shape, FF_JOINT_NECK, FF_COVER_SKIN, by(shape, neck, 0.0, 0.0, 0.0), 0.058,
         by(shape, head, 0.0, 0.02, 0.008), 0.053, 0.04);
     add(shape, FF_JOINT_HEAD, FF_COVER_HAIR, by(shape, head, 0.0, 0.125, 0.038), 0.079,
         by(shape, head, 0.0, 0.118, -0.012), 0.085, 0.02);
@@ -91,11 +93,11 @@ static void add_foot(ff_body_shape *shape, ff_vec3 ankle, ff_vec3 ball, uint32_t
 {
     /* The sole is cut at y = 0, so every part may reach a little below it. */
     double scale = shape->scale, low = 0.031;
-    ff_vec3 heel = ff_v3(ankle.x, low * scale, ankle.z - 0.042 * scale);
+    ff_vec3 heel = ff_v3(ankle.x, low * scale, ankle.z - 0.033 * scale);
     ff_vec3 middle = ff_lerp3(ankle, ball, 0.45);
     middle.y = 0.040 * scale;
-    add(shape, joint, FF_COVER_SHOES, by(shape, ankle, 0.0, 0.0, -0.006), 0.042, heel, 0.037, 0.03);
-    add(shape, joint, FF_COVER_SHOES, heel, 0.036, middle, 0.037, 0.02);
+    add(shape, joint, FF_COVER_SHOES, by(shape, ankle, 0.0, 0.0, -0.006), 0.041, heel, 0.033, 0.03);
+    add(shape, joint, FF_COVER_SHOES, heel, 0.033, middle, 0.037, 0.02);
     add(shape, joint, FF_COVER_SHOES, by(shape, ankle, 0.0, -0.015, 0.008), 0.038,
         by(shape, ball, 0.0, 0.006, -0.025), 0.035, 0.03);
     for (int edge = -1; edge <= 1; edge += 2) {

@@ -51,14 +51,23 @@ void ff_stage_dress(ff_stage *stage, const ff_look *look)
         stage->vertices[i].colour = look->cover[body[i].cover];
 }
 
+static uint8_t mix(uint8_t trunk, uint8_t limb, double share)
+{
+    return (uint8_t)ff_lerp(trunk, limb, share);
+}
+
 void ff_stage_mark_sides(ff_stage *stage, ff_colour left, ff_colour right, ff_colour trunk)
 {
     const ff_body_vertex *body = stage->mesh.vertices.data;
     for (size_t i = 0; i < stage->mesh.vertices.count; ++i) {
-        ff_colour colour = body[i].side > 0 ? left : (body[i].side < 0 ? right : trunk);
-        if (body[i].cover == FF_COVER_HAIR)
-            colour = (ff_colour){(uint8_t)(colour.r / 2), (uint8_t)(colour.g / 2), (uint8_t)(colour.b / 2)};
-        stage->vertices[i].colour = colour;
+        int share = 0; /* of the limbs in what moves this vertex; of the right ones negative */
+        for (int k = 0; k < 4; ++k)
+            share += ff_joint_side(body[i].joints[k]) * body[i].weights[k];
+        ff_colour limb = share > 0 ? left : right;
+        double part = ff_smooth(abs(share) / 255.0);
+        stage->vertices[i].colour =
+            (ff_colour){mix(trunk.r, limb.r, part), mix(trunk.g, limb.g, part), mix(trunk.b, limb.b, part)};
+        if (body[i].cover == FF_COVER_HAIR) stage->vertices[i].colour = (ff_colour){96, 94, 92};
     }
 }
 

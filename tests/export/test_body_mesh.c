@@ -82,7 +82,7 @@ static void test_vertices_lie_on_the_surface_above_the_ground(void **state)
         const float *n = vertex(i)->normal;
         FF_ASSERT_NEAR(ff_length3(ff_v3(n[0], n[1], n[2])), 1.0, 1e-5);
     }
-    FF_ASSERT_NEAR(top, figure.rest[FF_JOINT_HEAD].y + 0.205, 0.02);
+    FF_ASSERT_NEAR(top, figure.rest[FF_JOINT_SHOULDER_L].y + 0.105 + 0.205, 0.02);
 }
 
 static void test_weights_sum_to_one_and_stay_on_their_side(void **state)
