@@ -40,6 +40,29 @@ static bool is_calibration(ff_curve curve)
     return curve == FF_CURVE_PELVIS_PITCH_FWD || curve == FF_CURVE_HEAD_PITCH_FWD;
 }
 
+/* Averaging over people whose peaks fall at different times blurs the mean walker's trunk: range of single strides over
+ * range of the mean curve (fourier.csv, range_mean_of_strides / range_of_mean, rounded down). */
+static double unblurred(int person, ff_curve curve)
+{
+    if (person != 0) return 1.0;
+    switch (curve) {
+    case FF_CURVE_PELVIS_YAW:
+    case FF_CURVE_PELVIS_ROLL:
+    case FF_CURVE_PELVIS_PITCH_FWD:
+        return 1.1;
+    case FF_CURVE_THORAX_YAW:
+    case FF_CURVE_THORAX_PITCH_FWD:
+    case FF_CURVE_THORAX_ROLL:
+        return 1.25;
+    case FF_CURVE_HEAD_YAW:
+    case FF_CURVE_HEAD_PITCH_FWD:
+    case FF_CURVE_HEAD_ROLL:
+        return 1.6;
+    default:
+        return 1.0;
+    }
+}
+
 void ff_gait_set_at(int person, double speed, bool run, ff_gait_set *out)
 {
     ff_band low = FF_BAND_RUN, high = FF_BAND_RUN;
@@ -55,9 +78,9 @@ void ff_gait_set_at(int person, double speed, bool run, ff_gait_set *out)
     }
     for (int c = 0; c < FF_CURVE_COUNT; ++c) {
         ff_fourier a = band_curve(person, low, (ff_curve)c), b = band_curve(person, high, (ff_curve)c);
-        double unit = is_length((ff_curve)c) ? 1.0 : FF_DEG;
+        double unit = is_length((ff_curve)c) ? 1.0 : FF_DEG, swing = size * unblurred(person, (ff_curve)c);
         for (int k = 0; k < 13; ++k)
-            out->curve[c].c[k] = ff_lerp(a.c[k], b.c[k], t) * unit * (k == 0 ? 1.0 : size);
+            out->curve[c].c[k] = ff_lerp(a.c[k], b.c[k], t) * unit * (k == 0 ? 1.0 : swing);
         if (is_calibration((ff_curve)c)) out->curve[c].c[0] = 2.0 * FF_DEG;
     }
 }

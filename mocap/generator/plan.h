@@ -20,6 +20,7 @@ typedef struct ff_plan_style {
     double arms;      /* arm swing relative to the measured one */
     double widen;     /* m, added to the step width */
     double toe_out;   /* rad */
+    double shift;     /* m, weight shifted from leg to leg in a stand */
     double breathing; /* size of breathing and idle sway, 1 = a calm person */
     int person;       /* whose curves, 0 = the mean walker */
     uint64_t seed;    /* idle sway differs by seed */

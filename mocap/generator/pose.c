@@ -10,6 +10,7 @@
 #define KNEE_LEAST (8.0 * FF_DEG) /* soft knees: gait facts give 6 to 10 degrees least flexion in walking */
 #define KNEE_LEAST_RUN (16.0 * FF_DEG) /* and 17 to 20 in running */
 #define STAND_HEIGHT 0.9945            /* hips over the ankles of someone who stands, leg lengths */
+#define REACH_WINDOW_SIDE 0.17         /* in side steps hips sink with every wide stance */
 #define REACH_WINDOW 0.38 /* s, half the time over which lowered hips spread: over a quarter of any cycle */
 
 static const ff_vec3 axis_x = {1, 0, 0}, axis_z = {0, 0, 1};
@@ -61,6 +62,13 @@ static double slow_noise(uint64_t seed, uint64_t stream, double t)
     return 0.6 * sum;
 }
 
+/* Weight put on one leg, then on the other: stays at either side, and crosses within a second or so. */
+static double weight_shift(const ff_plan *plan, double t)
+{
+    double wave = 2.2 * ff_sin(FF_TAU * t / 7.6);
+    return plan->style.shift * (ff_smooth(0.5 + 0.5 * wave) * 2.0 - 1.0);
+}
+
 static void start_frame(const ff_plan *plan, double t, ff_frame *frame)
 {
     frame->t = t;
@@ -69,16 +77,18 @@ static void start_frame(const ff_plan *plan, double t, ff_frame *frame)
     const ff_root *root = &frame->root;
     double side = 0.8 * root->left, spot = 0.35 * root->turn;
     double speed = sqrt(root->forward * root->forward + side * side + spot * spot);
+    if (plan->jump) speed = 0.0; /* the gesture is the whole motion */
     ff_gait_set_at(plan->style.person, speed, plan->style.run, &frame->set);
     frame->moving = ff_smooth(speed / 0.5);
     /* the line from feet to hips leans 1.15, the trunk 0.5 times the angle of the turn's acceleration */
-    frame->lean_left = ff_atan2(root->forward * root->turn, 9.81);
+    frame->lean_left =
+        ff_atan2(root->forward * root->turn, 9.81) + 0.10 * root->left; /* and into side steps */
     ff_root before = ff_plan_root(plan, t - 0.12), after = ff_plan_root(plan, t + 0.12);
     frame->lean_front = 0.4 * ff_atan2((after.forward - before.forward) / 0.24, 9.81);
     double still = plan->style.breathing * (1.0 - 0.8 * frame->moving);
     frame->breath = plan->style.breathing * ff_sin(FF_TAU * t / 3.9);
     frame->sway[0] = 0.008 * still * slow_noise(plan->style.seed, 1, t);
-    frame->sway[1] = 0.016 * still * slow_noise(plan->style.seed, 2, t);
+    frame->sway[1] = 0.016 * still * slow_noise(plan->style.seed, 2, t) + weight_shift(plan, t);
     frame->gesture = ff_plan_gesture(plan, t);
     frame->bend = plan->style.bend + frame->gesture.bend;
     for (int foot = 0; foot < 2; ++foot)
@@ -91,7 +101,7 @@ static double sway_size(const ff_plan *plan, const ff_root *root)
 {
     if (plan->style.run) return 1.0;
     double speed = sqrt(root->forward * root->forward + root->left * root->left);
-    double range = ff_clamp(0.1035 - 0.0432 * speed, 0.03, 0.085) + 0.035 * ff_smooth(fabs(root->left) / 0.4);
+    double range = ff_clamp(0.1035 - 0.0432 * speed, 0.03, 0.085) + 0.060 * ff_smooth(fabs(root->left) / 0.4);
     double there = ff_smooth((speed + 0.25 * fabs(root->turn)) / 0.25);
     double measured = 0.0597 * ff_clamp(speed / ff_band_speed[FF_BAND_SLOW], 0.2, 1.0);
     if (speed > ff_band_speed[FF_BAND_SLOW]) return 1.0;
@@ -210,7 +220,7 @@ static void pose_trunk(const ff_plan *plan, ff_frame *frame)
     ff_quat chest = turned(root->heading + yaw, pitch, roll);
     /* the head goes with the body, a little ahead of it */
     double ahead = ff_clamp(0.12 * root->turn, -0.25, 0.25);
-    double look = frame->moving < 1.0 ? 0.05 * plan->style.breathing * (1.0 - frame->moving) *
+    double look = frame->moving < 1.0 ? 0.11 * plan->style.breathing * (1.0 - frame->moving) *
                                             slow_noise(plan->style.seed, 3, frame->t)
                                       : 0.0;
     ff_quat head = turned(root->heading + curve(frame, FF_CURVE_HEAD_YAW) + ahead + look,
@@ -297,7 +307,8 @@ static bool spread(double *values, int count, int half)
 
 bool ff_pose_clip(const ff_plan *plan, ff_clip *clip)
 {
-    int half = (int)(REACH_WINDOW / clip->frame_time), count = clip->frame_count + 2 * half;
+    double window = sideways(&plan->roots[0]) > 0.8 ? REACH_WINDOW_SIDE : REACH_WINDOW;
+    int half = (int)(window / clip->frame_time), count = clip->frame_count + 2 * half;
     double *excess = ff_calloc((size_t)count, sizeof *excess);
     if (!excess) return false;
     ff_frame frame;

@@ -68,7 +68,7 @@ static int plan_steady(const ff_recipe *recipe, ff_plan *plan)
 static int plan_idle(const ff_recipe *recipe, ff_plan *plan)
 {
     (void)recipe;
-    double seconds = 8.0;
+    double seconds = 9.0;
     add_knot(plan, -4.0, 0.0, 0.0, 0.0);
     add_knot(plan, seconds + 4.0, 0.0, 0.0, 0.0);
     add_contacts(plan, -4.0, 1.0, 0, 2);
@@ -218,11 +218,15 @@ static void adjust_jump(ff_plan *plan)
     }
 #define CALM_ARMS                                                                                            \
     {                                                                                                        \
-        .arms = 0.55, .toe_out = 6.0 * FF_DEG, .breathing = 1.0                                              \
+        .arms = 0.40, .toe_out = 6.0 * FF_DEG, .breathing = 1.0                                              \
     }
 #define CROUCHED                                                                                             \
     {                                                                                                        \
         .arms = 0.7, .toe_out = 8.0 * FF_DEG, .breathing = 1.0, .sink = 0.16, .bend = 32.0 * FF_DEG          \
+    }
+#define SHIFTING                                                                                             \
+    {                                                                                                        \
+        .arms = 1.0, .toe_out = 8.0 * FF_DEG, .breathing = 1.0, .shift = 0.045                               \
     }
 /* One pace throughout; B = planned forward and played backward. */
 #define PACE(name, text, tags, mode, v, l, w, style)                                                         \
@@ -293,6 +297,7 @@ const ff_recipe ff_recipes[] = {
     MOVE("turn-right-180", "turn on the spot, 180 degrees right", "turn right", "turn", plan_turn, NULL, -180 * FF_DEG, 0),
     MOVE("jump", "jump forward from standing", "jump", "jump", plan_jump, adjust_jump, 0, 0),
     MOVE("idle", "standing, breathing and swaying a little", "idle stand", "idle", plan_idle, NULL, 0, 0),
+    {{"idle-shift", "standing, weight shifting from leg to leg", "idle stand", "idle", 0, 0, 0, false}, plan_idle, NULL, 0, 0, false, SHIFTING},
 };
 /* clang-format on */
 const int ff_recipe_count = (int)(sizeof ff_recipes / sizeof ff_recipes[0]);
