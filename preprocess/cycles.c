@@ -13,7 +13,8 @@
 /* The root's low-pass sees 0.25 s; nearer to a clip's end than this it still follows the sway of the hips (s). */
 #define END_MARGIN 0.1
 /* Slower turns than this are a wobble of a straight walk (rad/s). */
-#define STRAIGHT_TURN 0.1
+#define STRAIGHT_TURN 0.1f
+#define DRIFT 0.04f   /* m/s */
 #define LOCK_MIN 0.08 /* share of the cycle; a shorter stance means the plants are wrong */
 
 void ff_cycles_free(ff_cycles *cycles)
@@ -74,6 +75,15 @@ static bool find_keys(const ff_plants *plants, int index, double frame_time, cyc
     return out->key[3] < out->key[2] && out->key[2] < out->key[1] && out->key[1] < period;
 }
 
+/* People drift a little; a straight example must be straight, or no blend is (synthesis study, section 6). */
+static void straighten(ff_pack_example *record)
+{
+    if (fabsf(record->v_forward) < DRIFT) record->v_forward = 0.0f;
+    if (fabsf(record->v_left) < DRIFT + 0.05f * fabsf(record->v_forward)) record->v_left = 0.0f;
+    if (fabsf(record->turn_rate) < (record->v_forward == 0.0f ? 0.5f : 1.0f) * STRAIGHT_TURN)
+        record->turn_rate = 0.0f;
+}
+
 static ff_status make_example(const ff_rig *rig, const ff_motion *motion, const cycle *c, ff_example *out,
                               ff_error *error)
 {
@@ -85,11 +95,7 @@ static ff_status make_example(const ff_rig *rig, const ff_motion *motion, const 
     record->gait = (uint32_t)c->gait;
     for (int k = 0; k < 4; ++k)
         record->key[k] = (float)(c->key[k] / c->length);
-    /* People drift a little; a straight example must be straight, or no blend is (synthesis study, section 6). */
-    if (fabsf(record->v_forward) > 0.2f) {
-        if (fabsf(record->v_left) < 0.1f * fabsf(record->v_forward)) record->v_left = 0.0f;
-        if (fabsf(record->turn_rate) < (float)STRAIGHT_TURN) record->turn_rate = 0.0f;
-    }
+    straighten(record);
     return FF_OK;
 }
 
