@@ -101,8 +101,14 @@ static void read_neutral(ff_blend_space *space)
             neutral[1] += (double)at->ball[1] / vertex->frame_count;
             neutral[2] += (double)at->yaw / vertex->frame_count;
         }
-        if (!vertex->idle) neutral[0] = 0.0; /* a walking foot's mean lies behind the body */
     }
+    /* Alike on both sides: how one person stood for a moment is no rule for where feet go. */
+    double *left = space->neutral[0], *right = space->neutral[1];
+    left[0] = right[0] = 0.5 * (left[0] + right[0]);
+    left[1] = 0.5 * (left[1] - right[1]);
+    left[2] = 0.5 * (left[2] - right[2]);
+    right[1] = -left[1];
+    right[2] = -left[2];
 }
 
 ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)

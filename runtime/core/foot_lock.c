@@ -5,6 +5,9 @@
 #define PLAN_TURN 6.0           /* rad/s, the same for its yaw */
 #define CLOSE_UP_SPEED 0.25     /* m/s (turning counted as in the blend space) */
 #define LEAST_LIFT 0.035        /* m, of the ball in mid swing (study, section 5: 4.5 cm for small steps) */
+#define HEEL_CLEARANCE 0.015    /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
+#define STRIKE 0.9              /* of the swing, which lasts until the foot is flat: the heel is down */
+#define HEIGHT_WINDOW 0.25      /* of the swing, at either end */
 #define LEAST_SPREAD 0.11       /* m between balls sideways while the feet are side by side */
 #define LEAST_SPREAD_AHEAD 0.30 /* m, from where on one foot in front of the other may be in line with it */
 
@@ -146,10 +149,15 @@ void ff_foot_neutral(const ff_foot_scene *scene, int foot, double time, ff_footh
     *out = place(root, heading, sample);
 }
 
+double ff_foot_closing(ff_rates rates)
+{
+    return 1.0 - ff_smooth(ff_length3(ff_blend_point(rates)) / CLOSE_UP_SPEED);
+}
+
 /* A body that hardly moves puts its foot where it will stand. */
 static void close_up(const ff_foot_scene *scene, int foot, double time, ff_foothold *plan)
 {
-    double share = 1.0 - ff_smooth(ff_length3(ff_blend_point(scene->rates)) / CLOSE_UP_SPEED);
+    double share = ff_foot_closing(scene->rates);
     if (share <= 0.0) return;
     ff_foothold stand;
     ff_foot_neutral(scene, foot, time, &stand);
@@ -186,14 +194,52 @@ static void replan(ff_gait_foot *state, ff_foothold wanted, double progress, dou
     state->lock.height = wanted.height;
 }
 
-/* Raise the ball to an arc over the floor, and the heel over the floor. */
+/* The larger of two heights, with a rounded corner of about round where they meet, so that the knee feels none. */
+static double soft_max(double x, double y, double round)
+{
+    double over = y - x;
+    return x + 0.5 * (over + sqrt(over * over + round * round));
+}
+
+/* Raise the ball over an arc above the floor, and the heel over the floor until it strikes. */
 static void keep_clear(const ff_body_frame *body, ff_gait_foot *state, int foot)
 {
     double arc = 4.0 * state->progress * (1.0 - state->progress);
-    double least = body->ball_rest + LEAST_LIFT * arc * arc, below = least - state->now.height;
-    double round = 0.01 * arc; /* m: a rounded corner where the arc takes over, so that the knee feels none */
-    state->now.height += 0.5 * (below + sqrt(below * below + round * round));
-    state->now.height = ff_max(state->now.height, body->ball_rest + heel_rise(body, foot, state->pitch));
+    double heel = body->ball_rest + heel_rise(body, foot, state->pitch) +
+                  HEEL_CLEARANCE * arc * ff_smooth((STRIKE - state->progress) / 0.3);
+    state->now.height = soft_max(state->now.height, body->ball_rest + LEAST_LIFT * arc * arc, 0.01 * arc);
+    state->now.height = soft_max(state->now.height, heel, 0.01 * arc);
+}
+
+/* Height is the clip's own but for the ends of the swing: an offset led over the whole swing would, by its slopes, take
+ * the height away that the clip clears the floor with. */
+static double height_offset(const ff_gait_foot *state, ff_foothold to, ff_foothold slope, double span)
+{
+    double window = HEIGHT_WINDOW * span, early = state->progress / HEIGHT_WINDOW;
+    double late = (state->progress - 1.0) / HEIGHT_WINDOW + 1.0;
+    if (early < 1.0) return hermite(early, state->from.height, state->slope.height * window, 0.0, 0.0);
+    if (late > 0.0) return hermite(late, 0.0, 0.0, to.height, slope.height * window);
+    return 0.0;
+}
+
+/* The foot now: the clip's, with an offset between that of the old lock and that of the new one. landing: the clip's
+ * foot at the landing, time s from now. */
+static void fly(const ff_foot_scene *scene, ff_gait_foot *state, int foot, ff_foothold landing,
+                ff_foothold slope, double time)
+{
+    double s = state->progress, span = state->elapsed + time;
+    ff_foothold to = subtract(state->lock, landing);
+    ff_foot_sample sample = ff_sample_foot(scene->space, scene->cursor, foot);
+    ff_foothold clip = place(scene->position, scene->heading, sample);
+    state->now.a = clip.a + hermite(s, state->from.a, state->slope.a * span, to.a, slope.a * span);
+    state->now.b = clip.b + hermite(s, state->from.b, state->slope.b * span, to.b, slope.b * span);
+    state->now.height = clip.height + height_offset(state, to, slope, span);
+    double turn = scene->rates.turn;
+    double to_yaw = ff_wrap(state->lock.yaw - scene->heading - turn * time);
+    state->now.yaw =
+        scene->heading + hermite(s, state->from.yaw, state->slope.yaw * span, to_yaw, -turn * span);
+    state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
+    keep_clear(&scene->space->body, state, foot);
 }
 
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
@@ -207,29 +253,14 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
         ff_phase_duration(scene->space, scene->blend, scene->phase, scene->phase + left) / scene->tempo;
     bool first = state->elapsed == 0.0;
     state->elapsed += scene->dt;
-    double span = state->elapsed + time;
-    state->progress = ff_max(state->progress, state->elapsed / span);
-    double s = state->progress;
+    state->progress = ff_max(state->progress, state->elapsed / (state->elapsed + time));
 
     ff_foothold landing = clip_foot_later(scene, foot, start, time);
     ff_foothold wanted = stance_mean(scene, foot, landing, start, length, time);
     close_up(scene, foot, time, &wanted);
     keep_sides(other, foot, &wanted);
     if (first) state->lock = wanted;
-    replan(state, wanted, s, scene->dt);
-
-    ff_foothold to = subtract(state->lock, landing);
-    ff_foothold slope = standing_slope(clip_foot_speed(scene, foot, start, time));
-    ff_foot_sample sample = ff_sample_foot(scene->space, scene->cursor, foot);
-    ff_foothold clip = place(scene->position, scene->heading, sample);
-    state->now.a = clip.a + hermite(s, state->from.a, state->slope.a * span, to.a, slope.a * span);
-    state->now.b = clip.b + hermite(s, state->from.b, state->slope.b * span, to.b, slope.b * span);
-    state->now.height = clip.height + hermite(s, state->from.height, state->slope.height * span, to.height,
-                                              slope.height * span);
-    double turn = scene->rates.turn * span,
-           to_yaw = ff_wrap(state->lock.yaw - scene->heading - scene->rates.turn * time);
-    state->now.yaw = scene->heading + hermite(s, state->from.yaw, state->slope.yaw * span, to_yaw, -turn);
-    state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
-    keep_clear(&scene->space->body, state, foot);
+    replan(state, wanted, state->progress, scene->dt);
+    fly(scene, state, foot, landing, standing_slope(clip_foot_speed(scene, foot, start, time)), time);
     return false;
 }

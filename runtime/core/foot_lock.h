@@ -30,6 +30,9 @@ ff_foothold ff_foot_of_clip(const ff_foot_scene *scene, int foot);
 /* Where the foot of a standing body will be, time s from now. */
 void ff_foot_neutral(const ff_foot_scene *scene, int foot, double time, ff_foothold *out);
 
+/* 1 for a body at rest, whose steps only close its feet, to 0 for one that walks. */
+double ff_foot_closing(ff_rates rates);
+
 /* The foot leaves the ground: the offset it has from the clip's foot starts the swing. */
 void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
 

@@ -193,7 +193,8 @@ void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, 
     change_mode(&scene, gait);
     if (gait->mode == FF_GAIT_STEP) {
         double most = ff_max(stretch(&scene, gait, 0), stretch(&scene, gait, 1));
-        scene.tempo = (1.0 + (MOST_TEMPO - 1.0) * ff_smooth(most)) / gait->style.cadence;
+        double hurry = ff_max(ff_smooth(most), 0.7 * ff_foot_closing(rates));
+        scene.tempo = (1.0 + (MOST_TEMPO - 1.0) * hurry) / gait->style.cadence;
         gait->phase = ff_phase_advance(space, &gait->blend, gait->phase, dt * scene.tempo);
         cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
         scene.phase = gait->phase;

@@ -76,7 +76,7 @@ static ff_quat toes_on_floor(const ff_body_frame *body, const ff_gait_foot *stat
 {
     ff_vec3 tip = ff_quat_rotate(foot_turn, ff_quat_rotate(toes, body->toe[foot]));
     double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
-    double least = body->ball_rest + body->toe[foot].y + TOE_CLEARANCE * arc * arc - state->now.height;
+    double least = body->ball_rest + body->toe[foot].y + TOE_CLEARANCE * arc - state->now.height;
     if (tip.y >= least) return toes;
     double ahead = tip.z * ff_cos(state->now.yaw) + tip.x * ff_sin(state->now.yaw);
     double length = sqrt(ahead * ahead + tip.y * tip.y);
