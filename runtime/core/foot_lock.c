@@ -1,14 +1,17 @@
 #include "runtime/core/foot_lock.h"
 
-#define SLOPE_LIMIT 0.6         /* m/s, study section 4.2 */
-#define PLAN_SPEED 2.5          /* m/s, how fast a footprint may move early in swing; none at the end */
-#define PLAN_TURN 6.0           /* rad/s, the same for its yaw */
-#define CLOSE_UP_SPEED 0.25     /* m/s (turning counted as in the blend space) */
-#define LEAST_LIFT 0.035        /* m, of the ball in mid swing (study, section 5: 4.5 cm for small steps) */
-#define HEEL_CLEARANCE 0.015    /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
-#define STRIKE 0.9              /* of the swing, which lasts until the foot is flat: the heel is down */
-#define HEIGHT_WINDOW 0.25      /* of the swing, at either end */
-#define LEAST_SPREAD 0.11       /* m between balls sideways while the feet are side by side */
+#define SLOPE_LIMIT 0.6      /* m/s, study section 4.2 */
+#define PLAN_SPEED 2.5       /* m/s, how fast a footprint may move early in swing; none at the end */
+#define PLAN_TURN 6.0        /* rad/s, the same for its yaw */
+#define CLOSE_UP_SPEED 0.25  /* m/s (turning counted as in the blend space) */
+#define LEAST_LIFT 0.035     /* m, of the ball in mid swing (study, section 5: 4.5 cm for small steps) */
+#define HEEL_CLEARANCE 0.015 /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
+#define STRIKE 0.9           /* of the swing, which lasts until the foot is flat: the heel is down */
+#define LIFT_WINDOW 0.5      /* of the swing, for offsets of height after the lift ... */
+#define LAND_WINDOW 0.25     /* ... and before the landing, where the heel is near the floor */
+#define PASS_ASIDE 0.08      /* m between ankles as one passes the other (gait facts: people 8.7 to 9.4 cm) */
+#define PASS_AHEAD 0.30      /* m, from where on ankles are not beside each other */
+#define LEAST_SPREAD 0.11    /* m between balls sideways while the feet are side by side */
 #define LEAST_SPREAD_AHEAD 0.30 /* m, from where on one foot in front of the other may be in line with it */
 
 void ff_root_predict(ff_vec2 position, double heading, ff_rates rates, double time, ff_vec2 *out_position,
@@ -215,17 +218,38 @@ static void keep_clear(const ff_body_frame *body, ff_gait_foot *state, int foot)
  * the height away that the clip clears the floor with. */
 static double height_offset(const ff_gait_foot *state, ff_foothold to, ff_foothold slope, double span)
 {
-    double window = HEIGHT_WINDOW * span, early = state->progress / HEIGHT_WINDOW;
-    double late = (state->progress - 1.0) / HEIGHT_WINDOW + 1.0;
-    if (early < 1.0) return hermite(early, state->from.height, state->slope.height * window, 0.0, 0.0);
-    if (late > 0.0) return hermite(late, 0.0, 0.0, to.height, slope.height * window);
+    double early = state->progress / LIFT_WINDOW, late = (state->progress - 1.0) / LAND_WINDOW + 1.0;
+    if (early < 1.0)
+        return hermite(early, state->from.height, state->slope.height * span * LIFT_WINDOW, 0.0, 0.0);
+    if (late > 0.0) return hermite(late, 0.0, 0.0, to.height, slope.height * span * LAND_WINDOW);
     return 0.0;
+}
+
+/* Ground point under the ankle of a foot that lies flat. */
+static ff_vec2 ankle_ground(const ff_body_frame *body, int foot, ff_foothold ball)
+{
+    ff_vec3 to_ball = body->offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+    return ff_madd2(ff_v2(ball.a, ball.b), ff_fwd2(ball.yaw), -to_ball.z);
+}
+
+/* Push a foot that swings past the standing one out to the side, so that ankles do not brush (study, section 5). */
+static void pass_beside(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
+{
+    const ff_body_frame *body = &scene->space->body;
+    ff_vec2 forward = ff_fwd2(scene->heading), left = ff_left2(forward);
+    ff_vec2 apart = ff_to_frame2(
+        forward, ff_sub2(ankle_ground(body, foot, state->now), ankle_ground(body, 1 - foot, other->now)));
+    double arc = 4.0 * state->progress * (1.0 - state->progress), side = foot == 0 ? 1.0 : -1.0;
+    double near = arc * (1.0 - ff_smooth(fabs(apart.a) / PASS_AHEAD));
+    double push = near * soft_max(0.0, PASS_ASIDE - side * apart.b, 0.02);
+    state->now.a += side * push * left.a;
+    state->now.b += side * push * left.b;
 }
 
 /* The foot now: the clip's, with an offset between that of the old lock and that of the new one. landing: the clip's
  * foot at the landing, time s from now. */
-static void fly(const ff_foot_scene *scene, ff_gait_foot *state, int foot, ff_foothold landing,
-                ff_foothold slope, double time)
+static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot,
+                ff_foothold landing, ff_foothold slope, double time)
 {
     double s = state->progress, span = state->elapsed + time;
     ff_foothold to = subtract(state->lock, landing);
@@ -239,6 +263,7 @@ static void fly(const ff_foot_scene *scene, ff_gait_foot *state, int foot, ff_fo
     state->now.yaw =
         scene->heading + hermite(s, state->from.yaw, state->slope.yaw * span, to_yaw, -turn * span);
     state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
+    pass_beside(scene, state, other, foot);
     keep_clear(&scene->space->body, state, foot);
 }
 
@@ -261,6 +286,6 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     keep_sides(other, foot, &wanted);
     if (first) state->lock = wanted;
     replan(state, wanted, state->progress, scene->dt);
-    fly(scene, state, foot, landing, standing_slope(clip_foot_speed(scene, foot, start, time)), time);
+    fly(scene, state, other, foot, landing, standing_slope(clip_foot_speed(scene, foot, start, time)), time);
     return false;
 }
