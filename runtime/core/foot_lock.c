@@ -4,6 +4,7 @@
 #define PLAN_SPEED 2.5       /* m/s, how fast a footprint may move early in swing; none at the end */
 #define PLAN_TURN 6.0        /* rad/s, the same for its yaw */
 #define CLOSE_UP_SPEED 0.25  /* m/s (turning counted as in the blend space) */
+#define SPEED_UP_TIME 0.1    /* s, for which a root that speeds up is taken to go on doing so */
 #define LEAST_LIFT 0.035     /* m, of the ball in mid swing (study, section 5: 4.5 cm for small steps) */
 #define HEEL_CLEARANCE 0.015 /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
 #define STRIKE 0.9           /* of the swing, which lasts until the foot is flat: the heel is down */
@@ -14,17 +15,31 @@
 #define LEAST_SPREAD 0.11    /* m between balls sideways while the feet are side by side */
 #define LEAST_SPREAD_AHEAD 0.30 /* m, from where on one foot in front of the other may be in line with it */
 
-void ff_root_predict(ff_vec2 position, double heading, ff_rates rates, double time, ff_vec2 *out_position,
-                     double *out_heading)
+/* Mean over the next time s of a rate that changes by acceleration until it is zero, or for SPEED_UP_TIME. */
+static double mean_rate(double rate, double acceleration, double time)
 {
-    double turn = rates.turn * time;
-    ff_vec2 forward = ff_fwd2(heading + 0.5 * turn);
-    ff_vec2 moved = ff_from_frame2(forward, ff_v2(rates.forward * time, rates.left * time));
+    if (time <= 0.0) return rate;
+    if (rate * acceleration < 0.0) {
+        double stop = -rate / acceleration;
+        return time < stop ? rate + 0.5 * acceleration * time : 0.5 * rate * stop / time;
+    }
+    double grow = ff_min(time, SPEED_UP_TIME);
+    return rate + acceleration * grow * (1.0 - 0.5 * grow / time);
+}
+
+void ff_root_predict(const ff_foot_scene *scene, double time, ff_vec2 *position, double *heading)
+{
+    ff_rates now = scene->rates, change = scene->acceleration;
+    double forward = mean_rate(now.forward, change.forward, time);
+    double left = mean_rate(now.left, change.left, time);
+    double turn = mean_rate(now.turn, change.turn, time) * time;
     double half = ff_clamp(0.5 * turn, -1.5, 1.5), square = half * half;
     double chord =
         1.0 - square / 6.0 * (1.0 - square / 20.0); /* sin(x)/x: the chord is shorter than the arc */
-    *out_position = ff_madd2(position, moved, chord);
-    *out_heading = heading + turn;
+    ff_vec2 ahead = ff_fwd2(scene->heading + 0.5 * turn);
+    ff_vec2 moved = ff_from_frame2(ahead, ff_v2(forward * time, left * time));
+    *position = ff_madd2(scene->position, moved, chord);
+    *heading = scene->heading + turn;
 }
 
 static ff_foothold place(ff_vec2 root, double heading, ff_foot_sample sample)
@@ -43,7 +58,7 @@ static ff_foothold clip_foot_later(const ff_foot_scene *scene, int foot, double 
 {
     ff_vec2 root;
     double heading;
-    ff_root_predict(scene->position, scene->heading, scene->rates, time, &root, &heading);
+    ff_root_predict(scene, time, &root, &heading);
     ff_cursor cursor = ff_cursor_at(scene->space, scene->blend, phase, scene->idle_time + time);
     return place(root, heading, ff_sample_foot(scene->space, &cursor, foot));
 }
@@ -147,7 +162,7 @@ void ff_foot_neutral(const ff_foot_scene *scene, int foot, double time, ff_footh
     const double *neutral = scene->space->neutral[foot];
     ff_vec2 root;
     double heading;
-    ff_root_predict(scene->position, scene->heading, scene->rates, time, &root, &heading);
+    ff_root_predict(scene, time, &root, &heading);
     ff_foot_sample sample = {neutral[0], neutral[1], scene->space->body.ball_rest, neutral[2], 0.0};
     *out = place(root, heading, sample);
 }
@@ -258,8 +273,10 @@ static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_f
     state->now.a = clip.a + hermite(s, state->from.a, state->slope.a * span, to.a, slope.a * span);
     state->now.b = clip.b + hermite(s, state->from.b, state->slope.b * span, to.b, slope.b * span);
     state->now.height = clip.height + height_offset(state, to, slope, span);
-    double turn = scene->rates.turn;
-    double to_yaw = ff_wrap(state->lock.yaw - scene->heading - turn * time);
+    double turn = scene->rates.turn, heading;
+    ff_vec2 root;
+    ff_root_predict(scene, time, &root, &heading);
+    double to_yaw = ff_wrap(state->lock.yaw - heading);
     state->now.yaw =
         scene->heading + hermite(s, state->from.yaw, state->slope.yaw * span, to_yaw, -turn * span);
     state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);

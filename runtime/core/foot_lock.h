@@ -13,16 +13,16 @@ typedef struct ff_foot_scene {
     const ff_cursor *cursor; /* of the blend now */
     ff_vec2 position;        /* root */
     double heading;
-    ff_rates rates; /* of the root now */
+    ff_rates rates;        /* of the root now */
+    ff_rates acceleration; /* per s, of the rates, smoothed */
     double phase;
     double idle_time;
     double dt;
     double tempo; /* factor on phase speed */
 } ff_foot_scene;
 
-/* Where the root will be after time s at constant rates (an arc). */
-void ff_root_predict(ff_vec2 position, double heading, ff_rates rates, double time, ff_vec2 *out_position,
-                     double *out_heading);
+/* Where the root will be after time s if it goes on as it does now: braking to a stop, or speeding up for a while. */
+void ff_root_predict(const ff_foot_scene *scene, double time, ff_vec2 *position, double *heading);
 
 /* The clip's foot put into the world, without any lock. */
 ff_foothold ff_foot_of_clip(const ff_foot_scene *scene, int foot);

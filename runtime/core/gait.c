@@ -8,6 +8,7 @@
 #define RATE_SMOOTHING                                                                                       \
     0.10                 /* s: the blend follows the root's rates with this lag, the feet take up the rest */
 #define STAND_TIME 0.35  /* s from the walking to the standing pose and back */
+#define SETTLED 0.6      /* of the way to the standing pose, from where on a step may begin */
 #define START_SPEED 0.12 /* m/s and rad/s above which a standing body begins to step ... */
 #define START_TURN 0.35
 #define STOP_SPEED 0.08 /* ... and below both of which a stepping one comes to a stand */
@@ -44,11 +45,23 @@ static void draw_style(ff_gait *gait, uint64_t variation)
     gait->first_foot = (uint32_t)(ff_random_next(&random) & 1u);
 }
 
+/* The smoothed rates lag by RATE_SMOOTHING, so what is missing of them is that much of the acceleration. */
 static ff_foot_scene scene_of(const ff_blend_space *space, const ff_gait *gait, const ff_cursor *cursor,
                               ff_vec2 position, double heading, ff_rates rates, double dt)
 {
-    return (ff_foot_scene){space, &gait->blend, cursor,          position, heading,
-                           rates, gait->phase,  gait->idle_time, dt,       1.0};
+    return (ff_foot_scene){.space = space,
+                           .blend = &gait->blend,
+                           .cursor = cursor,
+                           .position = position,
+                           .heading = heading,
+                           .rates = rates,
+                           .acceleration = {(rates.forward - gait->rates.forward) / RATE_SMOOTHING,
+                                            (rates.left - gait->rates.left) / RATE_SMOOTHING,
+                                            (rates.turn - gait->rates.turn) / RATE_SMOOTHING},
+                           .phase = gait->phase,
+                           .idle_time = gait->idle_time,
+                           .dt = dt,
+                           .tempo = 1.0};
 }
 
 void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
@@ -104,7 +117,8 @@ static bool wants_to_step(const ff_foot_scene *scene, const ff_gait *gait)
 {
     double worst = ff_max(drift(scene, gait, 0), drift(scene, gait, 1));
     if (worst > 1.4) return true;
-    if (gait->stand < 1.0) return false; /* first come to rest: the step then starts from a settled pose */
+    if (gait->stand < SETTLED)
+        return false; /* first come to rest: the step then starts from a settled pose */
     return worst > 1.0 || speed_of(gait->rates) > START_SPEED || fabs(gait->rates.turn) > START_TURN;
 }
 
