@@ -17,6 +17,9 @@ typedef struct ff_traits {
     double radius;          /* m */
 } ff_traits;
 
+/* Walks to its goal; stands at it; stands as near to it as others let it. */
+enum { FF_WALKS, FF_STANDS, FF_SETTLED };
+
 /* What navigation remembers of one agent. Plain, without padding: it is hashed as bytes. */
 typedef struct ff_mind {
     ff_vec2 command;    /* m/s, what was asked for last */
@@ -29,7 +32,7 @@ typedef struct ff_mind {
     double detour;      /* rad by which the way is turned now */
     double detour_left; /* s */
     uint32_t detours;   /* how many were tried for this goal */
-    uint32_t standing;  /* 1: stands, at the goal or as near to it as it can */
+    uint32_t standing;  /* FF_WALKS, FF_STANDS or FF_SETTLED */
 } ff_mind;
 
 /* Shared by all agents during a step; read only. */

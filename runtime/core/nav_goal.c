@@ -5,7 +5,8 @@
 #define SLOW_DOWN 0.8 /* m before the goal */
 #define SLOW 0.25     /* m/s: who has braked to that within the tolerance stands */
 #define CREEP 0.12    /* least part of the preferred speed: above the idle threshold of the body */
-#define LEAVE 0.3     /* m beyond the tolerance until one who was pushed away walks back */
+#define LEAVE 0.3     /* m beyond the tolerance until one who was pushed away walks back at once */
+#define RETURN 1.0    /* s, after which he does so from anywhere outside it */
 #define PROGRESS 0.25 /* m nearer to the goal: the least that counts */
 #define PATIENCE 6.0  /* s without progress */
 #define TAKEN 1.0  /* m beyond the tolerance: a goal this near, and held by others, is as good as reached */
@@ -31,15 +32,15 @@ static ff_vec2 turned(ff_vec2 v, double angle)
     return ff_from_frame2(ff_fwd2(angle), v);
 }
 
-/* Whether somebody stands where we want to stand. */
+/* Whether somebody stands there who wants the same place; others can be asked to make way. */
 static bool goal_taken(const ff_grid *grid, const ff_neighbour *neighbours, uint32_t count,
                        const ff_traits *traits)
 {
     for (uint32_t i = 0; i < count; ++i) {
         const ff_seen *other = &grid->seen[neighbours[i].index];
-        double reach = traits->goal_tolerance + traits->radius + other->radius;
-        ff_vec2 gap = ff_sub2(other->position, traits->goal);
-        if (other->standing && ff_dot2(gap, gap) < reach * reach) return true;
+        double reach = traits->radius + other->radius;
+        ff_vec2 apart = ff_sub2(other->goal, traits->goal);
+        if (other->standing && ff_dot2(apart, apart) < reach * reach) return true;
     }
     return false;
 }
@@ -50,7 +51,7 @@ static void give_way_to_fate(bool taken, double distance, const ff_nav_world *wo
     mind->stalled = 0.0;
     mind->best = distance;
     if (taken && distance < traits->goal_tolerance + TAKEN) {
-        mind->standing = 1;
+        mind->standing = FF_SETTLED;
         ++mind->detours;
         return;
     }
@@ -66,17 +67,19 @@ static void stand_or_go(double distance, double speed, double step, const ff_tra
 {
     bool inside = distance <= traits->goal_tolerance;
     if (!mind->standing) {
-        if (inside && speed <= SLOW) mind->standing = 1, mind->stalled = 0.0;
+        if (inside && speed <= SLOW) mind->standing = FF_STANDS, mind->stalled = 0.0;
         return;
     }
     if (inside) {
+        mind->standing = FF_STANDS;
         mind->stalled = 0.0;
         return;
     }
     mind->stalled += step;
-    double wait = SETTLE * (double)(1u << (mind->detours < 5 ? mind->detours : 5));
+    double wait = RETURN;
+    if (mind->standing == FF_SETTLED) wait = SETTLE * (double)(1u << (mind->detours < 5 ? mind->detours : 5));
     if (distance > traits->goal_tolerance + LEAVE + TAKEN || mind->stalled > wait) {
-        mind->standing = 0;
+        mind->standing = FF_WALKS;
         mind->stalled = 0.0;
         mind->best = distance;
     }

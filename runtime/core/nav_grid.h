@@ -22,7 +22,7 @@ typedef struct ff_seen {
     ff_vec2 goal;      /* m */
     double radius;     /* m */
     uint32_t slot;
-    uint32_t standing; /* 1: has arrived and stands */
+    uint32_t standing; /* 0: walks (nav.h) */
 } ff_seen;
 
 typedef struct ff_grid {
