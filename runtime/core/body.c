@@ -10,6 +10,7 @@
 #define PLANT_PART 0.4       /* of a step, round the plant, in which most of a change of velocity happens */
 #define PLANT_GAIN 2.0
 #define SWING_GAIN (1.0 / 3.0)
+#define BRAKE_GAIN 1.0 /* in swing, for slowing down: a step can be cut short */
 #define CHANGE_MAX 4.0 /* m/s^2 */
 #define STEP_TIME 0.5  /* s */
 #define SNAP 0.03      /* m/s, under which one who wants to stand does */
@@ -35,8 +36,9 @@ static ff_rates target_rates(const ff_body *body, ff_vec2 command, double facing
 /* First-order response, quick round the plants and slow in swing, limited in acceleration. */
 static void respond(ff_body *body, ff_rates target, double dt)
 {
-    double gain = body->phase < PLANT_PART ? PLANT_GAIN : SWING_GAIN;
-    ff_vec2 u = ff_v2(body->rates.forward, body->rates.left);
+    ff_vec2 u = ff_v2(body->rates.forward, body->rates.left), wanted = ff_v2(target.forward, target.left);
+    double swing = ff_dot2(wanted, wanted) < ff_dot2(u, u) ? BRAKE_GAIN : SWING_GAIN;
+    double gain = body->phase < PLANT_PART ? PLANT_GAIN : swing;
     ff_vec2 change = ff_scale2(ff_sub2(ff_v2(target.forward, target.left), u), gain / LAG);
     double size = ff_length2(change);
     if (size > CHANGE_MAX) change = ff_scale2(change, CHANGE_MAX / size);
