@@ -2,10 +2,12 @@
  * agent's records only (algorithms E). */
 #define _POSIX_C_SOURCE 199309L
 #include "runtime/core/crowd_state.h"
+#include "runtime/core/synth_state.h"
 
 #include <time.h>
 
-#define CHUNK 16 /* agents per task */
+#define CHUNK 16            /* agents per task */
+#define DOUBLE_SUPPORT 0.24 /* of a step */
 
 static double now(void)
 {
@@ -82,6 +84,15 @@ static ff_rates clamp_to_examples(const void *space, ff_rates target)
     return ff_blend_clamp(space, target);
 }
 
+/* Where in a step the legs are: 0 at a contact, DOUBLE_SUPPORT when the other foot leaves (key phases, synthesis study
+ * 2). The body pushes off and brakes on the plants that are really seen. */
+static double step_phase(const ff_gait *gait)
+{
+    if (gait->mode == FF_GAIT_STAND) return 0.0;
+    double key = gait->phase - 2.0 * floor(0.5 * gait->phase);
+    return key < 1.0 ? DOUBLE_SUPPORT * key : DOUBLE_SUPPORT + (1.0 - DOUBLE_SUPPORT) * (key - 1.0);
+}
+
 static void move(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
@@ -92,9 +103,11 @@ static void move(ff_crowd *crowd, uint32_t index)
     ff_vec2 before = body->position;
     ff_body_limits limits = {clamp_to_examples, crowd->space, walls, 0, radius};
     limits.wall_count = ff_walls_near(&crowd->walls, before, radius + 1.0, walls);
+    ff_gait *gait = ff_crowd_gait(crowd, slot);
+    body->phase = step_phase(gait);
     ff_rates mean = ff_body_step(body, mind->command, mind->facing, dt, &limits);
     crowd->velocity[slot] = ff_scale2(ff_sub2(body->position, before), 1.0 / dt);
-    ff_gait_step(crowd->space, ff_crowd_gait(crowd, slot), body->position, body->heading, mean, dt);
+    ff_gait_step(crowd->space, gait, body->position, body->heading, mean, dt);
 }
 
 void ff_crowd_step(ff_crowd *crowd)
