@@ -9,14 +9,7 @@
 
 #define PROGRAM "footfall-pack"
 
-static size_t content_bytes(const ff_pack_content *c)
-{
-    return c->frames.count * sizeof(ff_pack_frame) + c->rotations.count * sizeof(int16_t[4]) +
-           c->colliders.count * sizeof(ff_pack_collider) + c->tracks.count * sizeof(ff_pack_track) +
-           c->strings.count + c->meta.count;
-}
-
-static void print_summary(const ff_build_result *built, const char *path)
+static void print_summary(const ff_build_result *built, const char *path, size_t size)
 {
     const ff_pack_content *c = &built->content;
     const ff_pack_action *action = c->actions.data;
@@ -30,7 +23,7 @@ static void print_summary(const ff_build_result *built, const char *path)
            built->skipped_count, c->plants.count, c->actions.count - mirrored, mirrored);
     printf("%zu examples to walk with (%zu of them made up), %zu simplices, velocity hull of %zu corners\n",
            c->examples.count, derived, c->simplices.count, c->hull.count);
-    printf("wrote %s (%.1f MB)\n", path, 1e-6 * (double)content_bytes(c));
+    printf("wrote %s (%.1f MB)\n", path, 1e-6 * (double)size);
 }
 
 static void print_json(const ff_build_result *built, const char *path)
@@ -66,14 +59,15 @@ static int build_and_write(const ff_operands *operands, const ff_build_settings 
                            bool json)
 {
     ff_build_result built = {0};
+    size_t size = 0;
     ff_error error;
     char text[1024];
     ff_status status = build_from(operands, settings, &built, &error);
     for (int i = 0; i < built.skipped_count && !(status != FF_OK && settings->strict); ++i)
         fprintf(stderr, PROGRAM ": left out: %s\n", ff_error_text(&built.skipped[i], text, sizeof text));
-    if (status == FF_OK) status = ff_pack_write(&built.content, path, &error);
+    if (status == FF_OK) status = ff_pack_write(&built.content, path, &size, &error);
     if (status == FF_OK && json) print_json(&built, path);
-    if (status == FF_OK && !json) print_summary(&built, path);
+    if (status == FF_OK && !json) print_summary(&built, path, size);
     ff_build_result_free(&built);
     return status == FF_OK ? FF_EXIT_OK : ff_command_fail(PROGRAM, &error);
 }

@@ -116,12 +116,13 @@ ff_status ff_pack_image(ff_pack_content *content, void **data, size_t *size, ff_
     return FF_OK;
 }
 
-ff_status ff_pack_write(ff_pack_content *content, const char *path, ff_error *error)
+ff_status ff_pack_write(ff_pack_content *content, const char *path, size_t *size, ff_error *error)
 {
     void *data;
-    size_t size;
-    ff_status status = ff_pack_image(content, &data, &size, error);
-    if (status == FF_OK) status = ff_file_write_atomic(path, data, size, error);
+    size_t bytes;
+    ff_status status = ff_pack_image(content, &data, &bytes, error);
+    if (status == FF_OK) status = ff_file_write_atomic(path, data, bytes, error);
+    if (status == FF_OK && size) *size = bytes;
     free(data);
     return status;
 }

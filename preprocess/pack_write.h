@@ -24,7 +24,7 @@ void ff_pack_quantise(ff_quat q, int16_t out[4]);
 /* Lay the content out as a whole pack, checksummed, padding zero. *data is 64-byte aligned; free() it. */
 ff_status ff_pack_image(ff_pack_content *content, void **data, size_t *size, ff_error *error);
 
-/* The same, into a file, all or nothing. */
-ff_status ff_pack_write(ff_pack_content *content, const char *path, ff_error *error);
+/* The same, into a file, all or nothing; size (may be NULL) receives its bytes. */
+ff_status ff_pack_write(ff_pack_content *content, const char *path, size_t *size, ff_error *error);
 
 #endif
