@@ -31,6 +31,10 @@ double ff_example_find_feet(const ff_rig *rig, ff_example *example);
 /* Pose at a phase of the cycle (any number; its fraction counts). */
 void ff_example_sample(const ff_example *example, double phase, ff_vec3 *hips, ff_quat *rotations);
 
+/* Turn the head by one constant so that on average it looks ahead, a little down: how captured skeletons hold their
+ * heads says how they were calibrated (gait facts), not where people looked. */
+void ff_example_level_head(ff_example *example);
+
 /* Left and right exchanged, and re-phased so that the cycle again starts with the left contact. */
 ff_status ff_example_mirror(const ff_rig *rig, const ff_example *example, ff_example *out, ff_error *error);
 

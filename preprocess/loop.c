@@ -160,6 +160,7 @@ ff_status ff_loop_close(const ff_rig *rig, const ff_motion *motion, const ff_str
     if (status != FF_OK) return status;
     gap missing = measure_gap(rig, motion, c, root);
     fill_poses(motion, c, root, &missing, out);
+    ff_example_level_head(out);
     ff_pack_example *record = &out->record;
     record->period = (float)period;
     record->v_forward = (float)(root->velocity.a * rate);

@@ -24,7 +24,7 @@ static const ff_vec3 fallback[FF_BODY_COUNT] = {
     [FF_ROLE_TOE_L] = {0.0, 0.0, 0.0720},
 };
 
-/* Rest directions that are the rig's own: straight legs, arms out. Zero = the clips' own mean direction. */
+/* Rest directions that are the rig's own: straight legs, arms out, toes ahead. Zero = the clips' own mean direction. */
 static ff_vec3 rig_direction(int role)
 {
     switch (role) {
@@ -35,6 +35,8 @@ static ff_vec3 rig_direction(int role)
     case FF_ROLE_WRIST_L:
     case FF_ROLE_HAND_L:
         return ff_v3(1.0, 0.0, 0.0);
+    case FF_ROLE_TOE_L:
+        return ff_v3(0.0, 0.0, 1.0);
     default:
         return ff_v3(0.0, 0.0, 0.0);
     }
@@ -45,67 +47,62 @@ typedef struct samples {
     int directions, lengths;
 } samples;
 
-/* One clip's bone from a role's parent to the role, in legs, facing +Z, on the left side. */
-static void add_bone(samples *s, ff_vec3 bone, bool standing)
-{
-    double length = ff_length3(bone);
-    s->length[s->lengths++] = length;
-    if (!standing) return;
-    s->x[s->directions] = bone.x;
-    s->y[s->directions] = bone.y;
-    s->z[s->directions++] = bone.z;
-}
-
+/* One clip's bone from a role's parent to the role: its length, mean of both sides, and, when the file's identity pose
+ * is a standing person, its direction, facing +Z, as on the left side; all in legs. */
 static void sample_clip(const ff_clip *clip, int role, samples *s)
 {
     int joint[FF_ROLE_COUNT];
     for (int r = 0; r < FF_ROLE_COUNT; ++r)
         joint[r] = ff_clip_find(clip, (ff_role)r);
-    ff_vec3 at[FF_CLIP_MAX_JOINTS];
-    double heading;
+    ff_vec3 at[FF_CLIP_MAX_JOINTS], sum = {0.0, 0.0, 0.0};
+    double heading, length = 0.0;
     bool standing = ff_rest_is_standing(clip, joint, at, &heading);
     if (!standing) ff_clip_pose(clip, clip->frame_count - 1, at, NULL);
     double leg = ff_clip_leg_length(joint, at);
     if (!(leg > 0.0)) return;
     ff_role mirrored = ff_role_mirror((ff_role)role);
-    int sides = mirrored == role ? 1 : 2;
-    ff_vec3 sum = {0.0, 0.0, 0.0};
-    int found = 0;
+    int sides = mirrored == (ff_role)role ? 1 : 2, found = 0;
     for (int side = 0; side < sides; ++side) {
         ff_role here = side ? mirrored : (ff_role)role, parent = ff_role_parent(here);
         if (joint[here] < 0 || joint[parent] < 0) continue;
-        ff_vec3 bone = ff_sub3(at[joint[here]], at[joint[parent]]);
-        bone = ff_scale3(ff_quat_rotate(ff_quat_yaw(-heading), bone), 1.0 / leg);
-        if (side) bone.x = -bone.x;
-        if (!standing) bone = ff_v3(ff_length3(bone), 0.0, 0.0); /* only the length means something */
-        sum = ff_add3(sum, bone);
+        ff_vec3 bone = ff_scale3(ff_sub3(at[joint[here]], at[joint[parent]]), 1.0 / leg);
+        length += ff_length3(bone);
+        bone = ff_quat_rotate(ff_quat_yaw(-heading), bone);
+        sum = ff_add3(sum, ff_v3(side ? -bone.x : bone.x, bone.y, bone.z));
         ++found;
     }
-    if (found) add_bone(s, ff_scale3(sum, 1.0 / found), standing);
+    if (found == 0) return;
+    s->length[s->lengths++] = length / found;
+    if (!standing) return;
+    s->x[s->directions] = sum.x / found;
+    s->y[s->directions] = sum.y / found;
+    s->z[s->directions++] = sum.z / found;
 }
 
+/* Median length over the clips; 0 when no clip has the bone, or only as a tip that coincides with its joint (an empty
+ * End Site says nothing about a hand). */
+static double median_length(samples *s)
+{
+    double length = s->lengths > 0 ? ff_filter_quantile(s->length, s->lengths, 0.5) : 0.0;
+    return length > 0.01 ? length : 0.0;
+}
+
+/* The bone from its parent to a role of the left side or the middle, in legs. */
 static ff_vec3 median_bone(const ff_clip *const *clips, int clip_count, int role, samples *s)
 {
     s->directions = s->lengths = 0;
     for (int c = 0; c < clip_count; ++c)
         sample_clip(clips[c], role, s);
     ff_vec3 direction = rig_direction(role);
-    bool own = ff_length3(direction) > 0.0;
-    if (own && s->lengths > 0) {
-        double length = ff_filter_quantile(s->length, s->lengths, 0.5);
-        /* A tip that coincides with its joint (an empty End Site) says nothing about the hand. */
-        return length > 1e-3 ? ff_scale3(direction, length) : fallback[role];
+    if (ff_length3(direction) > 0.0) {
+        double length = median_length(s);
+        return length > 0.0 ? ff_scale3(direction, length) : fallback[role];
     }
-    if (role == FF_ROLE_BALL_L && s->lengths > 0) {
-        double length = ff_filter_quantile(s->length, s->lengths, 0.5);
-        if (length > 1.2 * ANKLE_OVER_BALL)
-            return ff_v3(0.0, -ANKLE_OVER_BALL, sqrt(length * length - ANKLE_OVER_BALL * ANKLE_OVER_BALL));
+    if (role == FF_ROLE_BALL_L) {
+        double length = ff_max(median_length(s), ff_length3(fallback[role]) * 0.5);
+        return ff_v3(0.0, -ANKLE_OVER_BALL, sqrt(length * length - ANKLE_OVER_BALL * ANKLE_OVER_BALL));
     }
-    if (role == FF_ROLE_TOE_L && s->lengths > 0) {
-        double length = ff_filter_quantile(s->length, s->lengths, 0.5);
-        if (length > 0.01) return ff_v3(0.0, 0.0, length);
-    }
-    if (role == FF_ROLE_BALL_L || role == FF_ROLE_TOE_L || s->directions == 0) return fallback[role];
+    if (s->directions == 0) return fallback[role];
     ff_vec3 bone =
         ff_v3(ff_filter_quantile(s->x, s->directions, 0.5), ff_filter_quantile(s->y, s->directions, 0.5),
               ff_filter_quantile(s->z, s->directions, 0.5));

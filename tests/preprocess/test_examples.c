@@ -109,6 +109,33 @@ static void hips_and_facing_are_on_the_root_on_average(void **state)
     made_motion_free(&made);
 }
 
+/* A captured head that hangs or tilts all the time was calibrated so: it is turned to look ahead, its motion stays. */
+static void heads_look_ahead_however_they_were_captured(void **state)
+{
+    (void)state;
+    ff_clip clip = generated_clip("walk-normal");
+    ff_rig rig = rig_of(&clip);
+    made_motion made = make_motion(&rig, clip);
+    for (int k = 0; k < made.motion.frame_count; ++k) {
+        ff_quat *head = &made.motion.rotations[(size_t)k * FF_ROLE_JOINT_COUNT + FF_ROLE_HEAD];
+        *head = ff_quat_mul(*head, ff_quat_exp(ff_v3(0.4, 0.0, 0.15)));
+    }
+    ff_cycles cycles = cut(&rig, &made);
+    const ff_example *e = &cycles.items[0];
+    double ahead = 0.0, tilt = 0.0;
+    for (int k = 0; k < e->frame_count; ++k) {
+        ff_quat world = FF_QUAT_IDENTITY;
+        for (int r = FF_ROLE_HEAD; r >= 0; r = (int)ff_role_parent((ff_role)r))
+            world = ff_quat_mul(e->rotations[(size_t)k * FF_ROLE_JOINT_COUNT + (size_t)r], world);
+        ahead += ff_quat_rotate(world, ff_v3(0.0, 0.0, 1.0)).y / e->frame_count;
+        tilt += ff_quat_rotate(world, ff_v3(1.0, 0.0, 0.0)).y / e->frame_count;
+    }
+    FF_ASSERT_NEAR(ahead, -sin(5.0 * FF_DEG), 0.01);
+    FF_ASSERT_NEAR(tilt, 0.0, 0.01);
+    ff_cycles_free(&cycles);
+    made_motion_free(&made);
+}
+
 static void a_mirrored_example_steps_with_the_other_foot_first(void **state)
 {
     (void)state;
@@ -299,6 +326,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cycles_have_the_rates_the_clips_were_made_with),
         cmocka_unit_test(hips_and_facing_are_on_the_root_on_average),
+        cmocka_unit_test(heads_look_ahead_however_they_were_captured),
         cmocka_unit_test(a_mirrored_example_steps_with_the_other_foot_first),
         cmocka_unit_test(a_walk_read_backwards_walks_backwards),
         cmocka_unit_test(made_up_walks_hold_their_feet_and_bend_their_knees),
