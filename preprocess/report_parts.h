@@ -1,0 +1,33 @@
+/* report_parts.h - the parts of the report's page. */
+#ifndef FF_REPORT_PARTS_H
+#define FF_REPORT_PARTS_H
+
+#include "runtime/core/pack.h"
+#include "runtime/export/text.h"
+
+#include <jansson.h>
+
+/* Append text with the characters that mean something to HTML escaped; at most 480 bytes of it. */
+void ff_report_text(ff_text *page, const char *text);
+
+/* Names and colours of locomotion modes. */
+const char *ff_report_mode(uint32_t mode);
+const char *ff_report_colour(uint32_t mode);
+
+/* World positions of a pose of FRMS: the joints, then the points of the pack (joint_count + point_count). */
+void ff_report_pose(const ff_pack *pack, uint32_t frame, ff_vec3 *positions);
+
+/* The frame of FRMS nearest to a time of a clip (s, from the file's first pose). */
+uint32_t ff_report_frame(const ff_pack *pack, const ff_pack_clip *clip, double seconds);
+
+/* Heights and speeds of both feet over time, plants shaded, actions and rejections below. rejected: the clip's list in
+ * META, or NULL. */
+void ff_report_timeline(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip, const json_t *rejected);
+
+/* One card per action of the clip: the body from the side at five moments, and the annotation. */
+void ff_report_steps(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip);
+
+/* Examples and their hull in the plane of velocities (FbCrowd, figure 3). */
+void ff_report_hull(ff_text *page, const ff_pack *pack);
+
+#endif
