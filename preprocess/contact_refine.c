@@ -6,11 +6,15 @@
 static const double SWING_REACH = 0.7; /* s: how far into the swing its peak is looked for */
 static const double HEEL_LOW = 0.05;   /* m: heel at contact, over its level in the contact */
 static const double BALL_LOW = 0.02;   /* m */
+static const double AT_LEVEL = 0.002;  /* m: a point that bears weight, over its level */
 static const double STILL = 0.3;       /* m/s: a point at rest */
+static const double CROSSING = 0.025;  /* s: how long noise may carry a speed to and fro over a limit */
+static const double TOES_UP = 0.02;    /* m: ball over heel when a foot rolls off backwards */
+static const double LIFTED = 0.005;    /* m: a point that bears no weight any more */
 
-/* Up to three estimates of one event. */
+/* Up to four estimates of one event. */
 typedef struct votes {
-    int frame[3], count;
+    int frame[4], count;
 } votes;
 
 static void vote(votes *v, int frame)
@@ -18,7 +22,7 @@ static void vote(votes *v, int frame)
     v->frame[v->count++] = frame;
 }
 
-/* Median of three, mean of two. */
+/* Median: of four, the mean of the middle two. */
 static int decide(const votes *v, int otherwise, double rate, double *spread)
 {
     *spread = 0.0;
@@ -30,7 +34,8 @@ static int decide(const votes *v, int otherwise, double rate, double *spread)
         sum += v->frame[k];
     }
     *spread = (high - low) / rate;
-    return v->count == 3 ? sum - low - high : (v->count == 2 ? sum / 2 : low);
+    if (v->count == 4) return (sum - low - high + 1) / 2;
+    return v->count == 3 ? sum - low - high : (v->count == 2 ? (sum + 1) / 2 : low);
 }
 
 static int peak_of(const double *values, int from, int to)
@@ -66,7 +71,7 @@ static void find_levels(const ff_foot_signals *s, ff_contact *c)
 /* Vertical acceleration of a point. */
 static double rise(const ff_foot_signals *s, int p, int i)
 {
-    int b = clamp_frame(s, i - 1), a = clamp_frame(s, i + 1);
+    int b = clamp_frame(s, i - 2), a = clamp_frame(s, i + 2);
     return s->point[p][a].y - 2.0 * s->point[p][i].y + s->point[p][b].y;
 }
 
@@ -81,19 +86,39 @@ static double pitch_rate(const ff_foot_signals *s, int i)
     return pitch(s, clamp_frame(s, i + 1)) - pitch(s, clamp_frame(s, i - 1));
 }
 
-/* First frame after the swing's peak at which the point is slow and low. -1: never. */
+/* First frame after the swing's peak at which the point is slow and low; noise makes the first of several crossings
+ * early, so the middle between the first and the last one is taken. -1: never. */
 static int comes_to_rest(const ff_foot_signals *s, const ff_contact *c, int p, int peak, double limit,
                          double low)
 {
-    for (int i = peak; i <= c->last; ++i)
-        if (s->speed[p][i] < limit && s->height[p][i] < c->level[p] + low) return i;
+    int reach = (int)(CROSSING * s->rate);
+    for (int i = peak; i <= c->last; ++i) {
+        if (s->speed[p][i] >= limit || s->height[p][i] >= c->level[p] + low) continue;
+        int end = i;
+        for (int k = i + 1; k <= i + reach && k <= c->last; ++k)
+            if (s->speed[p][k] >= limit) end = k + 1;
+        return (i + end + 1) / 2;
+    }
     return -1;
 }
 
+/* First frame after the swing's peak from which on the point is at its level for a while. -1: never. */
+static int comes_down(const ff_foot_signals *s, const ff_contact *c, int p, int peak)
+{
+    int stay = (int)(CROSSING * s->rate), since = 0;
+    for (int i = peak; i <= c->last; ++i) {
+        since = s->height[p][i] < c->level[p] + AT_LEVEL ? since + 1 : 0;
+        if (since > stay) return i - stay;
+    }
+    return -1;
+}
+
+/* The blow of landing: where the point is pushed upwards most. It comes after the point has slowed down, so little
+ * time is searched before. */
 static int strongest_rise(const ff_foot_signals *s, int p, int around, int reach)
 {
     int best = around;
-    for (int i = clamp_frame(s, around - reach); i <= clamp_frame(s, around + reach); ++i)
+    for (int i = clamp_frame(s, around); i <= clamp_frame(s, around + reach); ++i)
         if (rise(s, p, i) > rise(s, p, best)) best = i;
     return best;
 }
@@ -107,7 +132,7 @@ static int turns_down(const ff_foot_signals *s, int around, int before, int afte
     double strongest = pitch_rate(s, best);
     if (strongest * s->rate > -0.2) return -1; /* m/s of the ball about the heel */
     int i = best;
-    while (i > low && pitch_rate(s, i - 1) < 0.6 * strongest)
+    while (i > low && pitch_rate(s, i - 1) < 0.8 * strongest)
         --i;
     return i;
 }
@@ -128,21 +153,36 @@ static void find_start(const ff_foot_signals *s, int previous_last, double runni
     if (ball >= 0 && (heel < 0 || ball + late < heel)) {
         vote(&v, ball);
         vote(&v, strongest_rise(s, FF_FOOT_BALL, ball, reach));
+        int down = comes_down(s, c, FF_FOOT_BALL, ball_peak);
+        if (down >= 0) vote(&v, down);
     } else if (heel >= 0) {
         vote(&v, heel);
         vote(&v, strongest_rise(s, FF_FOOT_HEEL, heel, reach));
-        int turn = turns_down(s, heel, reach, 2 * reach);
+        int turn = turns_down(s, heel, reach, 2 * reach), down = comes_down(s, c, FF_FOOT_HEEL, peak);
         if (turn >= 0) vote(&v, turn);
+        if (down >= 0) vote(&v, down);
     }
     int first = decide(&v, c->first, s->rate, &c->start_spread);
     c->first = first < c->last ? first : c->last;
 }
 
-/* Last frame before the swing's peak at which the point was slow. */
+/* Last frame before the swing's peak at which the point was slow, the middle of several crossings likewise. */
 static int leaves_rest(const ff_foot_signals *s, const ff_contact *c, int p, int peak, double limit)
 {
-    int i = peak;
+    int i = peak, reach = (int)(CROSSING * s->rate);
     while (i > c->first && s->speed[p][i] >= limit)
+        --i;
+    int begin = i;
+    for (int k = i - 1; k >= i - reach && k > c->first; --k)
+        if (s->speed[p][k] >= limit) begin = k - 1;
+    return (i + begin) / 2;
+}
+
+/* Last frame before another one at which the point was at its level. */
+static int lifts(const ff_foot_signals *s, const ff_contact *c, int p, int before)
+{
+    int i = before;
+    while (i > c->first && s->height[p][i] > c->level[p] + LIFTED)
         --i;
     return i;
 }
@@ -188,7 +228,13 @@ static void find_end(const ff_foot_signals *s, int next_first, double running, f
     votes v = {.count = 0};
     vote(&v, toe);
     vote(&v, leaves_rest(s, c, FF_FOOT_BALL, peak, 1.15 * limit));
-    if (c->last < s->count - 1) vote(&v, half_push(s, toe, (int)(0.06 * s->rate), (int)(0.12 * s->rate)));
+    int heel = leaves_rest(s, c, FF_FOOT_HEEL, peak, limit);
+    if (pitch(s, heel) > TOES_UP) {
+        /* Who walks backwards rolls off over the heel: the middle of the roll. */
+        v.count = 0;
+        vote(&v, (lifts(s, c, FF_FOOT_BALL, heel) + heel) / 2);
+    } else if (c->last < s->count - 1)
+        vote(&v, half_push(s, toe, (int)(0.06 * s->rate), (int)(0.12 * s->rate)));
     int last = decide(&v, c->last, s->rate, &c->end_spread);
     c->last = last > c->first ? last : c->first;
 }

@@ -2,6 +2,7 @@
 #include "mocap/generator/generator.h"
 #include "preprocess/build.h"
 #include "preprocess/plants_command.h"
+#include "preprocess/report.h"
 #include "runtime/tool/command_line.h"
 
 static const ff_subcommand commands[] = {
@@ -9,6 +10,7 @@ static const ff_subcommand commands[] = {
     {"inspect", "say what is in a motion pack", ff_inspect_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
     {"generate", "write the built-in clips", ff_generate_command},
+    {"report", "show a motion pack as one HTML page", ff_report_command},
     {0},
 };
 

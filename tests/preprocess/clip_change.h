@@ -3,6 +3,7 @@
 #define FF_CLIP_CHANGE_H
 
 #include "mocap/clip.h"
+#include "runtime/core/base/random.h"
 #include "tests/check.h"
 
 /* Every step-th frame of a clip from frame first on, as a clip of its own. */
@@ -60,6 +61,38 @@ static inline void clip_move(ff_clip *clip, ff_quat q, ff_vec3 by)
         ff_quat *turn = &clip->rotations[f * clip->joint_count];
         *turn = ff_quat_mul(q, *turn);
     }
+}
+
+/* White noise on every coordinate of every joint's place, as markers have it; rotations stay. */
+static inline void clip_shake(ff_clip *clip, double metres, uint64_t seed)
+{
+    int joints = clip->joint_count;
+    ff_vec3 *at = calloc((size_t)joints, sizeof *at),
+            *local = calloc((size_t)clip->frame_count * (size_t)joints, sizeof *local);
+    ff_quat *turn = calloc((size_t)joints, sizeof *turn);
+    ff_random random = {seed, 0, 0};
+    assert_true(at && local && turn);
+    for (int f = 0; f < clip->frame_count; ++f) {
+        ff_clip_pose(clip, f, at, turn);
+        for (int j = 0; j < joints; ++j) {
+            double n[3];
+            for (int k = 0; k < 3; ++k)
+                n[k] = metres * ff_random_normal(&random);
+            at[j] = ff_add3(at[j], ff_v3(n[0], n[1], n[2]));
+        }
+        for (int j = 0; j < joints; ++j) {
+            int p = clip->joints[j].parent;
+            local[f * joints + j] =
+                p < 0 ? at[j] : ff_quat_rotate(ff_quat_conj(turn[p]), ff_sub3(at[j], at[p]));
+        }
+    }
+    free(clip->positions);
+    clip->positions = local;
+    clip->track_count = joints;
+    for (int j = 0; j < joints; ++j)
+        clip->joints[j].track = j;
+    free(at);
+    free(turn);
 }
 
 #endif

@@ -6,15 +6,20 @@
 
 #include <stdio.h>
 
-static ff_generated generate(const char *name, double noise_mm)
+static ff_generated generate_noisy(const char *name, double noise_mm)
 {
+    ff_generator_options options = {.noise_mm = noise_mm, .seed = 11};
     ff_generated made;
     ff_error error;
-    ff_generator_options options = {.noise_mm = noise_mm, .seed = 11};
     int index = ff_generator_find(name);
     assert_true(index >= 0);
     FF_ASSERT_OK(ff_generator_make(index, &options, &made, &error), error);
     return made;
+}
+
+static ff_generated generate(const char *name)
+{
+    return generate_noisy(name, 0.0);
 }
 
 static ff_plants find(const ff_clip *clip)
@@ -31,61 +36,74 @@ static int overlap(const ff_true_plant *t, const ff_plant *p)
     return t->foot == p->foot ? to - from + 1 : 0;
 }
 
-/* Every true plant has one found plant of its own within tolerance, and there is no other. Returns how many plants
- * are off by more than 3 frames. */
-static int compare_with_truth(const char *name, const ff_generated *made, const ff_plants *plants,
-                              int tolerance)
+/* How far starts and ends are from the truth. */
+typedef struct misses {
+    int compared, beyond_3, worst; /* ends; of them farther than 3 frames; frames */
+} misses;
+
+static void count_miss(misses *m, int frames)
 {
-    int far_off = 0;
+    ++m->compared;
+    m->beyond_3 += frames > 3;
+    if (frames > m->worst) m->worst = frames;
+}
+
+/* Every true plant has one found plant of its own, and there is no other. Ends that the clip cuts are not compared. */
+static void compare_with_truth(const char *name, const ff_generated *made, const ff_plants *plants, misses *m)
+{
     if (plants->count != made->plant_count) {
         print_error("%s: %d plants found, %d are true\n", name, plants->count, made->plant_count);
         fail();
     }
+    bool used[256] = {false};
+    assert_in_range(plants->count, 1, sizeof used);
     for (int t = 0; t < made->plant_count; ++t) {
         const ff_true_plant *is = &made->plants[t];
         const ff_plant *found = NULL;
         for (int p = 0; p < plants->count; ++p)
             if (overlap(is, &plants->items[p]) > (found ? overlap(is, found) : 0)) found = &plants->items[p];
         assert_non_null(found);
-        int start = is->cut_start ? 0 : abs(found->start - is->start);
-        int end = is->cut_end ? 0 : abs(found->end - is->end);
-        if (start > tolerance || end > tolerance) {
-            print_error("%s: plant %d to %d found from %d to %d\n", name, is->start, is->end, found->start,
-                        found->end);
-            fail();
-        }
-        far_off += start > 3 || end > 3;
+        assert_false(used[found - plants->items]);
+        used[found - plants->items] = true;
+        if (!is->cut_start) count_miss(m, abs(found->start - is->start));
+        if (!is->cut_end) count_miss(m, abs(found->end - is->end));
     }
-    return far_off;
 }
 
-/* Noise of 2 mm moves single frames of slow, flat landings: there 1 plant in 100 may be off by up to 6 frames. */
-static void compare_all_with_truth(double noise_mm)
+/* noise: of the generator's kind; shake: on every joint by itself; both in mm. */
+static misses compare_all_with_truth(double noise, double shake)
 {
-    int count = 0, far_off = 0, tolerance = noise_mm > 0.0 ? 6 : 3;
+    misses m = {0};
     for (int i = 0; i < ff_generator_count(); ++i) {
         const char *name = ff_generator_describe(i).name;
-        ff_generated made = generate(name, noise_mm);
+        ff_generated made = generate_noisy(name, noise);
+        if (shake > 0.0) clip_shake(&made.clip, 1e-3 * shake, 11);
         ff_plants plants = find(&made.clip);
-        far_off += compare_with_truth(name, &made, &plants, tolerance);
-        count += made.plant_count;
+        compare_with_truth(name, &made, &plants, &m);
         ff_plants_free(&plants);
         ff_generated_free(&made);
     }
-    print_message("%d plants, %.1f mm of noise: %d off by more than 3 frames\n", count, noise_mm, far_off);
-    assert_true(far_off * 100 <= count);
+    print_message("%g mm of noise: %d starts and ends, %d farther than 3 frames, worst %d\n", noise + shake,
+                  m.compared, m.beyond_3, m.worst);
+    return m;
 }
 
 static void finds_every_plant_of_generated_clips(void **state)
 {
     (void)state;
-    compare_all_with_truth(0.0);
+    misses m = compare_all_with_truth(0.0, 0.0);
+    assert_int_equal(m.beyond_3, 0);
 }
 
 static void finds_every_plant_under_2_mm_of_noise(void **state)
 {
     (void)state;
-    compare_all_with_truth(2.0);
+    /* One end in a hundred may be four or five frames off: slow, flat landings hardly show in 2 mm. */
+    for (int kind = 0; kind < 2; ++kind) {
+        misses m = compare_all_with_truth(kind ? 0.0 : 2.0, kind ? 2.0 : 0.0);
+        FF_ASSERT_BELOW(m.beyond_3, 0.01 * m.compared);
+        FF_ASSERT_BELOW(m.worst, 6);
+    }
 }
 
 /* The plants of b are those of a within tolerance frames; swap: with the feet exchanged. */
@@ -111,7 +129,7 @@ static void same_plants(const ff_plants *a, const ff_plants *b, int tolerance, b
 static void mirroring_swaps_the_feet(void **state)
 {
     (void)state;
-    ff_generated made = generate("curve-left-tight", 0.0);
+    ff_generated made = generate("curve-left-tight");
     ff_plants before = find(&made.clip);
     clip_reflect(&made.clip);
     ff_plants after = find(&made.clip);
@@ -136,7 +154,7 @@ static void turning_raising_and_tilting_the_floor_change_nothing(void **state)
         {{0.0, 0.0, 1.0}, 1.2 * FF_DEG, {0.0, -0.09, 0.0}, 1}, /* 2 cm/m across it */
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
-        ff_generated made = generate("walk-normal", 0.0);
+        ff_generated made = generate("walk-normal");
         ff_plants before = find(&made.clip);
         clip_move(&made.clip, ff_quat_axis(cases[k].axis, cases[k].angle), cases[k].by);
         ff_plants after = find(&made.clip);
@@ -150,7 +168,7 @@ static void turning_raising_and_tilting_the_floor_change_nothing(void **state)
 static void the_floor_is_measured(void **state)
 {
     (void)state;
-    ff_generated made = generate("walk-normal", 0.0);
+    ff_generated made = generate("walk-normal");
     ff_plants level = find(&made.clip);
     clip_move(&made.clip, ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -0.02), ff_v3(0.0, 0.05, 0.0));
     ff_plants tilted = find(&made.clip);
@@ -170,7 +188,7 @@ static void fewer_frames_per_second_keep_the_plants(void **state)
     static const char *const names[] = {"walk-slow", "walk-normal", "strafe-left", "curve-right"};
     for (size_t k = 0; k < sizeof names / sizeof *names; ++k)
         for (int step = 2; step <= 4; step += 2) {
-            ff_generated made = generate(names[k], 0.0);
+            ff_generated made = generate(names[k]);
             ff_clip slow = clip_every(&made.clip, 0, step);
             ff_plants full = find(&made.clip), few = find(&slow);
             assert_int_equal(few.count, full.count);
@@ -191,7 +209,7 @@ static void fewer_frames_per_second_keep_the_plants(void **state)
 static void single_wrong_frames_break_nothing(void **state)
 {
     (void)state;
-    ff_generated made = generate("walk-normal", 0.0);
+    ff_generated made = generate("walk-normal");
     ff_plants before = find(&made.clip);
     for (int f = 40; f < made.clip.frame_count - 10; f += 97)
         made.clip.positions[f * made.clip.track_count].y += f % 2 ? 0.4 : -0.3;
@@ -205,7 +223,7 @@ static void single_wrong_frames_break_nothing(void **state)
 static void rest_frames_at_the_start_are_no_motion(void **state)
 {
     (void)state;
-    ff_generated made = generate("walk-normal", 0.0);
+    ff_generated made = generate("walk-normal");
     ff_clip cut = clip_every(&made.clip, 30, 1), held = clip_every(&made.clip, 30, 1);
     size_t joints = (size_t)held.joint_count;
     held.frame_count = cut.frame_count - 1;
@@ -235,7 +253,7 @@ static void rest_frames_at_the_start_are_no_motion(void **state)
 static void skeletons_without_toes_and_balls_still_work(void **state)
 {
     (void)state;
-    ff_generated made = generate("walk-normal", 0.0);
+    ff_generated made = generate("walk-normal");
     for (int j = 0; j < made.clip.joint_count; ++j) {
         ff_role role = made.clip.joints[j].role;
         bool front = role == FF_ROLE_BALL_L || role == FF_ROLE_BALL_R || role == FF_ROLE_TOE_L ||
@@ -243,7 +261,9 @@ static void skeletons_without_toes_and_balls_still_work(void **state)
         if (front) made.clip.joints[j].role = FF_ROLE_NONE;
     }
     ff_plants plants = find(&made.clip);
-    compare_with_truth("walk-normal without toes", &made, &plants, 8);
+    misses m = {0};
+    compare_with_truth("walk-normal without toes", &made, &plants, &m);
+    FF_ASSERT_BELOW(m.worst, 8);
     ff_plants_free(&plants);
     ff_generated_free(&made);
 }
@@ -251,7 +271,7 @@ static void skeletons_without_toes_and_balls_still_work(void **state)
 static void a_skeleton_without_ankles_is_refused(void **state)
 {
     (void)state;
-    ff_generated made = generate("idle", 0.0);
+    ff_generated made = generate("idle");
     for (int j = 0; j < made.clip.joint_count; ++j)
         if (made.clip.joints[j].role == FF_ROLE_ANKLE_R) made.clip.joints[j].role = FF_ROLE_NONE;
     ff_plants plants;
@@ -265,7 +285,7 @@ static void a_skeleton_without_ankles_is_refused(void **state)
 static void clips_of_a_few_frames_do_no_harm(void **state)
 {
     (void)state;
-    ff_generated made = generate("walk-normal", 0.0);
+    ff_generated made = generate("walk-normal");
     for (int frames = 1; frames <= 5; ++frames) {
         ff_clip brief = clip_copy(&made.clip);
         brief.frame_count = frames;
@@ -281,7 +301,7 @@ static void clips_of_a_few_frames_do_no_harm(void **state)
 static void one_who_stands_has_one_plant_for_each_foot(void **state)
 {
     (void)state;
-    ff_generated made = generate("idle", 0.0);
+    ff_generated made = generate("idle");
     ff_plants plants = find(&made.clip);
     assert_int_equal(plants.count, 2);
     for (int i = 0; i < 2; ++i) {
