@@ -8,8 +8,9 @@
 /* Navigation study, section 4, unless another source is named. */
 #define RELAXATION 0.54 /* s, of eq 9 */
 #define DENSITY_BETA 0.0
-#define HORIZON 2.5        /* s */
-#define SHARE 0.5          /* of the avoidance, as the other does the same */
+#define HORIZON 2.5 /* s */
+#define SHARE 0.5   /* of the avoidance, as the other does the same */
+#define LEAN 0.1 /* rad: who meets head on, nearly, passes on the side of the convention (not in the study) */
 #define PREDICTION 0.3     /* s, about the lag of a body */
 #define WEIGHT_MAX 4.0     /* of the most pressing neighbour in the dense fallback */
 #define COMMAND_CHANGE 2.0 /* m/s^2 */
@@ -100,9 +101,10 @@ static ff_line avoid(const nav_view *view, const ff_neighbour *neighbour)
         if (ff_dot2(then, then) > reach * reach) break;
         then = now;
     }
+    double lean = view->world->keep_right > 0.0 ? LEAN : (view->world->keep_right < 0.0 ? -LEAN : 0.0);
     ff_line line =
         ff_orca_disc(then, ff_sub2(me->reference, other->reference), me->reference, reach, HORIZON - ahead,
-                     SHARE, ff_max(view->world->step, OVERLAP_TIME), apart(me, other));
+                     SHARE, ff_max(view->world->step, OVERLAP_TIME), lean, apart(me, other));
     line.weight = ff_clamp(HORIZON / ff_max(neighbour->time, OVERLAP_TIME), 1.0, WEIGHT_MAX);
     return line;
 }

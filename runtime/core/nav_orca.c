@@ -10,7 +10,7 @@ static ff_line leave_disc(ff_vec2 w, double reach, double time, ff_vec2 own, dou
 }
 
 ff_line ff_orca_disc(ff_vec2 to_other, ff_vec2 relative, ff_vec2 own, double reach, double horizon,
-                     double share, double overlap_time, ff_vec2 apart)
+                     double share, double overlap_time, double lean, ff_vec2 apart)
 {
     double square = ff_dot2(to_other, to_other), reach2 = reach * reach;
     if (square <= reach2) {
@@ -23,8 +23,9 @@ ff_line ff_orca_disc(ff_vec2 to_other, ff_vec2 relative, ff_vec2 own, double rea
         return leave_disc(w, reach, horizon, own, share, apart);
     /* One of the two tangents from the origin to the disc. */
     double e = sqrt(square - reach2), a = to_other.a, b = to_other.b;
-    ff_vec2 d = ff_det2(to_other, w) > 0.0 ? ff_v2(a * e - b * reach, a * reach + b * e)
-                                           : ff_v2(-(a * e + b * reach), -(-a * reach + b * e));
+    double middle = lean * sqrt(square * ff_dot2(w, w));
+    ff_vec2 d = ff_det2(to_other, w) > middle ? ff_v2(a * e - b * reach, a * reach + b * e)
+                                              : ff_v2(-(a * e + b * reach), -(-a * reach + b * e));
     d = ff_scale2(d, 1.0 / square);
     ff_vec2 u = ff_sub2(ff_scale2(d, ff_dot2(relative, d)), relative);
     return (ff_line){ff_madd2(own, u, share), d, 1.0};

@@ -6,10 +6,11 @@
 #include "runtime/core/nav_time.h"
 
 /* Line for avoiding a moving disc. to_other = p_j - p_i, relative = v_i - v_j, own = v_i, reach = r_i + r_j,
- * horizon in s, share = part of the avoidance that is ours; apart = unit direction to use when the geometry gives none
+ * horizon in s, share = part of the avoidance that is ours; lean
+ * (rad): up to this far off the middle to the left one still passes on the right (negative: the other way round); apart = unit direction to use when the geometry gives none
  * (the two must be given opposite ones). A pair that overlaps is told to part within overlap_time. */
 ff_line ff_orca_disc(ff_vec2 to_other, ff_vec2 relative, ff_vec2 own, double reach, double horizon,
-                     double share, double overlap_time, ff_vec2 apart);
+                     double share, double overlap_time, double lean, ff_vec2 apart);
 
 /* Lines for not touching walls[count] (at most FF_WALL_LINES_MAX) within horizon seconds, put at the end of lines;
  * returns the new count. Walls take no part in avoiding: full responsibility. All lines admit standing still. Each wall's

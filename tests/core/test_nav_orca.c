@@ -24,7 +24,7 @@ static void the_line_touches_the_velocity_obstacle_at_its_nearest_point(void **s
         ff_vec2 to_other = random_vec(&random, 4.0), own = random_vec(&random, 1.5);
         ff_vec2 relative = ff_sub2(own, random_vec(&random, 1.5)), x = ff_scale2(to_other, -1.0);
         if (ff_length2(to_other) < reach + 0.01) continue;
-        ff_line line = ff_orca_disc(to_other, relative, own, reach, horizon, 1.0, 0.1, ff_v2(1, 0));
+        ff_line line = ff_orca_disc(to_other, relative, own, reach, horizon, 1.0, 0.1, 0.0, ff_v2(1, 0));
         /* With full responsibility the line lies at the boundary point: relative + u. */
         ff_vec2 u = ff_sub2(line.point, own), boundary = ff_add2(relative, u);
         ff_vec2 outward = ff_left2(line.direction);
@@ -51,9 +51,9 @@ static void two_who_both_obey_their_lines_do_not_collide(void **state)
         ff_vec2 to_other = random_vec(&random, 4.0), v = random_vec(&random, 1.5),
                 w = random_vec(&random, 1.5);
         if (ff_length2(to_other) < reach + 0.01) continue;
-        ff_line mine = ff_orca_disc(to_other, ff_sub2(v, w), v, reach, horizon, 0.5, 0.1, ff_v2(1, 0));
-        ff_line theirs =
-            ff_orca_disc(ff_scale2(to_other, -1.0), ff_sub2(w, v), w, reach, horizon, 0.5, 0.1, ff_v2(-1, 0));
+        ff_line mine = ff_orca_disc(to_other, ff_sub2(v, w), v, reach, horizon, 0.5, 0.1, 0.0, ff_v2(1, 0));
+        ff_line theirs = ff_orca_disc(ff_scale2(to_other, -1.0), ff_sub2(w, v), w, reach, horizon, 0.5, 0.1,
+                                      0.0, ff_v2(-1, 0));
         for (int k = 0; k < 20; ++k) {
             ff_vec2 a = random_vec(&random, 2.0), b = random_vec(&random, 2.0);
             if (ff_line_violation(mine, a) > -1e-9 || ff_line_violation(theirs, b) > -1e-9) continue;
@@ -65,12 +65,13 @@ static void two_who_both_obey_their_lines_do_not_collide(void **state)
 static void an_overlapping_pair_is_told_to_part_and_identical_points_give_no_nan(void **state)
 {
     (void)state;
-    ff_line mine = ff_orca_disc(ff_v2(0.3, 0.0), ff_v2(0, 0), ff_v2(0, 0), 0.6, 2.5, 0.5, 0.1, ff_v2(1, 0));
+    ff_line mine =
+        ff_orca_disc(ff_v2(0.3, 0.0), ff_v2(0, 0), ff_v2(0, 0), 0.6, 2.5, 0.5, 0.1, 0.0, ff_v2(1, 0));
     assert_true(ff_line_violation(mine, ff_v2(0.0, 0.0)) > 0.0);
     assert_true(ff_line_violation(mine, ff_v2(-1.6, 0.0)) < 0.0);
     ff_vec2 zero = ff_v2(0.0, 0.0);
-    ff_line p = ff_orca_disc(zero, zero, zero, 0.6, 2.5, 0.5, 0.1, ff_v2(1, 0));
-    ff_line q = ff_orca_disc(zero, zero, zero, 0.6, 2.5, 0.5, 0.1, ff_v2(-1, 0));
+    ff_line p = ff_orca_disc(zero, zero, zero, 0.6, 2.5, 0.5, 0.1, 0.0, ff_v2(1, 0));
+    ff_line q = ff_orca_disc(zero, zero, zero, 0.6, 2.5, 0.5, 0.1, 0.0, ff_v2(-1, 0));
     assert_true(isfinite(p.point.a) && isfinite(q.point.a));
     assert_true(p.point.a > 0.0 && q.point.a < 0.0);
 }
