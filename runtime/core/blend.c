@@ -162,8 +162,9 @@ static ff_status read_simplices(ff_blend_space *space, ff_error *error)
     for (uint32_t i = 0; i < pack->simplex_count; ++i)
         if (pack->simplices[i].gait == FF_GAIT_WALK) add_simplex(space, &pack->simplices[i]);
     keep_outer_faces(space);
-    /* A pack without usable simplices still has its examples, each by itself. */
-    for (uint32_t v = 0; v < space->vertex_count && space->solid_count == 0; ++v)
+    /* There is always something to go to: with no simplices, or only doubled ones, the examples by themselves. */
+    bool bare = space->solid_count == 0 || space->face_count == 0;
+    for (uint32_t v = 0; v < space->vertex_count && bare; ++v)
         space->faces[space->face_count++] = face_of((int32_t)v, -1, -1);
     return build_grid(space, error);
 }
@@ -200,6 +201,7 @@ void ff_blend_space_destroy(ff_blend_space *space)
 static void project(const ff_blend_space *space, ff_vec3 p, ff_blend *out)
 {
     double best = -1.0;
+    *out = (ff_blend){.vertex = {0, -1, -1, -1}, .weight = {1.0}};
     for (uint32_t f = 0; f < space->face_count; ++f) {
         const ff_blend_face *face = &space->faces[f];
         ff_vec3 corner[3];

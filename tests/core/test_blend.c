@@ -118,12 +118,34 @@ static void a_pack_of_one_line_of_walks_is_projected_onto(void **state)
     ff_walker_space_free(&line);
 }
 
+static void a_pack_with_every_simplex_twice_can_be_blended(void **state)
+{
+    (void)state;
+    ff_pack_content content;
+    ff_error error;
+    ff_walker_content(&content, &ff_walker_grid_small);
+    size_t count = content.simplices.count;
+    ff_pack_simplex *more = ff_array_grow(&content.simplices, count, sizeof *more);
+    assert_non_null(more);
+    memcpy(more, content.simplices.data, count * sizeof *more);
+    ff_walker_space twice;
+    size_t size;
+    FF_ASSERT_OK(ff_pack_image(&content, &twice.data, &size, &error), error);
+    ff_pack_content_free(&content);
+    FF_ASSERT_OK(ff_pack_open_memory(twice.data, size, &twice.pack, &error), error);
+    FF_ASSERT_OK(ff_blend_space_create(twice.pack, &twice.space, &error), error);
+    ff_rates got = ff_blend_clamp(twice.space, (ff_rates){9.0, 0.0, 0.0});
+    FF_ASSERT_NEAR(got.forward, 1.2, 1e-6);
+    ff_walker_space_free(&twice);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blended_rates_are_exact_in_speed_and_turn),
         cmocka_unit_test(targets_inside_are_kept_and_others_go_to_the_nearest_point),
         cmocka_unit_test(weights_change_as_smoothly_as_rates_do),
+        cmocka_unit_test(a_pack_with_every_simplex_twice_can_be_blended),
         cmocka_unit_test(a_pack_of_one_line_of_walks_is_projected_onto),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -159,7 +159,7 @@ static void planted_feet_do_not_skate_on_any_trajectory(void **state)
 {
     for (size_t k = 0; k < TRAJECTORIES; ++k)
         for (uint64_t variation = 0; variation < 3; ++variation) {
-            double paths[128];
+            double paths[128] = {0};
             int frames = record(*state, trajectories[k].rates, 12.0, variation);
             int count = plant_paths(frames, paths, 128);
             assert_true(count >= 8);
