@@ -145,6 +145,18 @@ static ff_status make_rig(build *b, ff_error *error)
     return status;
 }
 
+/* What is a short and what a long step is known once all clips are cut. */
+static ff_status split_walks(build *b, ff_error *error)
+{
+    ff_actions **sets = ff_calloc((size_t)b->good, sizeof *sets);
+    if (!sets) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
+    for (int i = 0; i < b->good; ++i)
+        sets[i] = &b->clips[i].actions;
+    ff_status status = ff_actions_split_walks(sets, b->good, error);
+    free(sets);
+    return status;
+}
+
 static ff_status fill(build *b, ff_error *error)
 {
     ff_pack_content *content = &b->result->content;
@@ -189,6 +201,7 @@ static ff_status run(build *b, ff_error *error)
     if (status == FF_OK) status = make_rig(b, error);
     if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
     if (status == FF_OK) status = run_stage(b, "cutting", cut_one, error);
+    if (status == FF_OK) status = split_walks(b, error);
     if (status == FF_OK) status = fill(b, error);
     return status;
 }

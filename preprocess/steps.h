@@ -32,6 +32,9 @@ ff_status ff_actions_cut(const ff_rig *rig, const ff_motion *motion, const ff_pl
                          ff_actions *out, ff_error *error);
 void ff_actions_free(ff_actions *actions);
 
+/* Tell short from long walking steps by the median step length of all given clips (algorithms A.7). */
+ff_status ff_actions_split_walks(ff_actions *const *sets, int count, ff_error *error);
+
 /* The record and colliders of the mirrored action. */
 void ff_action_mirror(const ff_action *action, ff_action *out);
 

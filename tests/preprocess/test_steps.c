@@ -235,6 +235,27 @@ static void colliders_follow_the_body_at_10_hz(void **state)
     cut_free(&c);
 }
 
+static void half_of_the_walking_steps_are_long(void **state)
+{
+    (void)state;
+    cut slow = cut_generated("walk-slow", false, -1), fast = cut_generated("walk-brisk", false, -1);
+    cut still = cut_generated("idle", false, -1);
+    ff_actions *sets[3] = {&slow.actions, &still.actions, &fast.actions};
+    ff_error error;
+    FF_ASSERT_OK(ff_actions_split_walks(sets, 3, &error), error);
+    int brief = 0, all = 0;
+    for (int i = 0; i < 3; i += 2)
+        for (int k = 0; k < sets[i]->count; ++k, ++all)
+            brief += sets[i]->items[k].record.mode == FF_MODE_WALK_SHORT;
+    assert_true(abs(2 * brief - all) <= 2);
+    for (int k = 0; k < slow.actions.count; ++k)
+        assert_int_equal(slow.actions.items[k].record.mode, FF_MODE_WALK_SHORT);
+    assert_int_equal(still.actions.items[0].record.mode, FF_MODE_IDLE);
+    cut_free(&slow);
+    cut_free(&fast);
+    cut_free(&still);
+}
+
 static void one_who_stands_gives_half_a_second_of_idling(void **state)
 {
     (void)state;
@@ -268,6 +289,7 @@ int main(void)
         cmocka_unit_test(mirroring_twice_is_nothing),
         cmocka_unit_test(a_mirrored_action_is_the_action_of_the_mirrored_clip),
         cmocka_unit_test(colliders_follow_the_body_at_10_hz),
+        cmocka_unit_test(half_of_the_walking_steps_are_long),
         cmocka_unit_test(one_who_stands_gives_half_a_second_of_idling),
         cmocka_unit_test(a_clip_tagged_as_a_jump_stays_whole),
     };
