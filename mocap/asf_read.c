@@ -14,7 +14,7 @@
 typedef struct bone_text {
     ff_vec3 direction, axis;
     double length;
-    char axis_order[3];
+    unsigned char axis_order[3];
     uint32_t line;
     int parent, first_child, last_child, next_sibling; /* bones; -1 = none */
 } bone_text;
@@ -87,15 +87,15 @@ static ff_status read_unit(reader *r, ff_word key)
 }
 
 /* "XYZ" in any order. */
-static ff_status read_axis_order(reader *r, char order[3])
+static ff_status read_axis_order(reader *r, unsigned char order[3])
 {
     ff_word word = ff_text_word(&r->text);
     unsigned seen = 0;
     for (size_t i = 0; i < word.length && i < 3; ++i) {
-        char c = (char)((word.begin[i] | 0x20) - 'x');
-        if (c < 0 || c > 2) break;
-        order[i] = c;
-        seen |= 1u << c;
+        int axis = (word.begin[i] | 0x20) - 'x';
+        if (axis < 0 || axis > 2) break;
+        order[i] = (unsigned char)axis;
+        seen |= 1u << axis;
     }
     if (word.length == 3 && seen == 7) return FF_OK;
     return ff_text_fail(&r->text, word.begin, FF_ERR_PARSE, r->error,
@@ -128,7 +128,7 @@ static ff_status read_dof(reader *r, int index, int most)
             return ff_text_fail(&r->text, word.begin, FF_ERR_PARSE, r->error, "degree of freedom '%s' twice",
                                 ff_word_quote(word).text);
         seen |= 1u << dof;
-        bone->dof[bone->dof_count++] = (char)dof;
+        bone->dof[bone->dof_count++] = (unsigned char)dof;
     }
 }
 
@@ -295,7 +295,7 @@ static void set_axis(ff_asf_bone *bone, const bone_text *text, double to_radians
     ff_quat q = FF_QUAT_IDENTITY;
     for (int i = 2; i >= 0; --i) {
         double s, c;
-        ff_sincos(0.5 * to_radians * angles[(int)text->axis_order[i]], &s, &c);
+        ff_sincos(0.5 * to_radians * angles[text->axis_order[i]], &s, &c);
         q = ff_quat_turn(q, text->axis_order[i], s, c);
     }
     bone->turned = q.x != 0.0 || q.y != 0.0 || q.z != 0.0;

@@ -369,7 +369,7 @@ static ff_status read_all(reader *r)
     if (!ff_word_is(word, "hierarchy"))
         return ff_text_fail(&r->text, word.begin, FF_ERR_PARSE, r->error,
                             "'%s' where HIERARCHY is expected: this is no BVH", ff_word_quote(word).text);
-    long long frames;
+    long long frames = 0;
     ff_status status = read_hierarchy(r);
     if (status == FF_OK && r->joints.count == 0)
         status = ff_text_fail(&r->text, NULL, FF_ERR_NO_DATA, r->error, "the hierarchy has no joint");

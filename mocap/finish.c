@@ -109,25 +109,33 @@ static ff_status odd_unit(ff_clip *clip, bool strict, ff_error *error, const cha
     return FF_ERR_RANGE;
 }
 
+/* What is odd about legs of this length (file units) under this unit; "" when nothing is. */
+static void judge_unit(double leg, double unit_m, char message[256])
+{
+    const struct unit *likely = likeliest_unit(leg);
+    message[0] = '\0';
+    if (human(leg * unit_m)) return;
+    if (human(leg * likely->metres)) {
+        snprintf(
+            message, 256,
+            "legs are %.3g m long with a unit of %.4g m; the unit is likely '%s', which makes them %.2f m",
+            leg * unit_m, unit_m, likely->name, leg * likely->metres);
+    } else {
+        snprintf(message, 256, "legs are %.3g m long with a unit of %.4g m, and no known unit fits them",
+                 leg * unit_m, unit_m);
+    }
+}
+
 static ff_status set_unit(ff_clip *clip, const ff_load_options *options, double stated_m, ff_error *error)
 {
     double leg = leg_length(clip), unit_m = options->unit_m > 0.0 ? options->unit_m : stated_m;
-    const struct unit *likely = leg > 0.0 ? likeliest_unit(leg) : NULL;
     char message[256] = "";
-    if (unit_m > 0.0 && leg > 0.0 && !human(leg * unit_m)) {
-        snprintf(message, sizeof message, "legs are %.3g m long with a unit of %.4g m", leg * unit_m, unit_m);
-        if (human(leg * likely->metres))
-            snprintf(message + strlen(message), sizeof message - strlen(message),
-                     "; the unit is likely '%s', which makes them %.2f m", likely->name,
-                     leg * likely->metres);
-    } else if (!(unit_m > 0.0) && !likely) {
+    if (leg > 0.0) {
+        if (!(unit_m > 0.0)) unit_m = likeliest_unit(leg)->metres;
+        judge_unit(leg, unit_m, message);
+    } else if (!(unit_m > 0.0)) {
         unit_m = 0.01;
         snprintf(message, sizeof message, "the unit cannot be told without legs; centimetres are assumed");
-    } else if (!(unit_m > 0.0)) {
-        unit_m = likely->metres;
-        if (!human(leg * unit_m))
-            snprintf(message, sizeof message, "legs of %.3g file units fit no known unit; '%s' is assumed",
-                     leg, likely->name);
     }
     scale(clip, unit_m);
     return message[0] ? odd_unit(clip, options->strict, error, message) : FF_OK;

@@ -15,11 +15,11 @@ ff_status ff_bvh_parse(const char *data, size_t size, const char *name, const ff
 /* A bone of an ASF as a joint at the bone's START that turns by C M C^-1 (algorithms A.2). */
 typedef struct ff_asf_bone {
     char name[64];
-    int joint;      /* index in ff_asf.joints */
-    int dof_count;  /* values on the bone's AMC line, 0 = rigid */
-    char dof[6];    /* in file order: 0 1 2 = rotation about x y z, 3 4 5 = translation (root only) */
-    bool turned;    /* axis is not the identity */
-    double axis[9]; /* C as a matrix, row by row */
+    int joint;            /* index in ff_asf.joints */
+    int dof_count;        /* values on the bone's AMC line, 0 = rigid */
+    unsigned char dof[6]; /* in file order: 0 1 2 = rotation about x y z, 3 4 5 = translation (root only) */
+    bool turned;          /* axis is not the identity */
+    double axis[9];       /* C as a matrix, row by row */
 } ff_asf_bone;
 
 typedef struct ff_asf {

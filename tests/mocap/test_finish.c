@@ -35,7 +35,8 @@ static void the_unit_is_guessed_from_the_length_of_the_legs(void **state)
         double metres;
     } units[] = {{"m", 1.0}, {"cmu", 0.0254 / 0.45}, {"cm", 0.01}, {"inch", 0.0254}, {"mm", 0.001}};
     for (size_t i = 0; i < sizeof units / sizeof units[0]; ++i)
-        for (double leg_m = 0.65; leg_m < 1.05; leg_m += 0.1) {
+        for (int size = 0; size < 4; ++size) {
+            double leg_m = 0.65 + 0.1 * size;
             ff_clip clip = person(leg_m / units[i].metres, "0.01");
             ff_load_options options = ff_load_options_default();
             ff_error error;

@@ -16,9 +16,12 @@ static const char *scan(const char *text, double *out)
 
 static void assert_same_bits_as_strtod(const char *text)
 {
-    double got, want = strtod(text, NULL);
+    double got = 0.0, want = strtod(text, NULL);
+    uint64_t got_bits, want_bits;
     assert_non_null(scan(text, &got));
-    if (memcmp(&got, &want, sizeof got) != 0) {
+    memcpy(&got_bits, &got, sizeof got);
+    memcpy(&want_bits, &want, sizeof want);
+    if (got_bits != want_bits) {
         print_error("%s read as %.17g, strtod says %.17g\n", text, got, want);
         fail();
     }
@@ -70,7 +73,7 @@ static void everything_else_is_refused(void **state)
                                         "1e+",    "1.5x",  "0x10",  "1..2",  "1.2.3",    "--1", "+-1",
                                         "nan",    "-nan",  "inf",   "-inf",  "infinity", "1,5", "1e999",
                                         "-1e400", "0x1p3", "1_000", "NaN(1)"};
-    double value;
+    double value = 0.0;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i)
         if (scan(wrong[i], &value)) {
             print_error("'%s' was read as %g\n", wrong[i], value);
@@ -85,7 +88,7 @@ static void everything_else_is_refused(void **state)
 static void the_scan_stops_behind_the_number(void **state)
 {
     (void)state;
-    double value;
+    double value = 0.0;
     assert_string_equal(scan("12.5 next", &value), " next");
     assert_string_equal(scan("-3\tnext", &value), "\tnext");
     assert_string_equal(scan("4.5e1\r", &value), "\r");
@@ -97,7 +100,7 @@ static void the_locale_does_not_matter(void **state)
     (void)state;
     if (!setlocale(LC_NUMERIC, "de_DE.UTF-8") && !setlocale(LC_NUMERIC, "fr_FR.UTF-8"))
         print_message("no locale with a decimal comma here; the check is then trivial\n");
-    double value;
+    double value = 0.0;
     assert_non_null(scan("0.12345678901234567890123", &value)); /* too long for the fast path */
     setlocale(LC_NUMERIC, "C");
     FF_ASSERT_NEAR(value, 0.12345678901234567890123, 0.0);
