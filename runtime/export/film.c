@@ -77,13 +77,13 @@ static ff_status draw_crowd(const film *f, ff_error *error)
     ff_raster raster = {0};
     ff_status status = ff_stage_create(f->figure, COARSE, &stage, error);
     if (status == FF_OK) status = ff_raster_create(width, height, &raster, error);
-    ff_camera camera = ff_film_crowd_camera(f->recording, width, height);
     uint32_t last = last_crowded_pose(f->recording);
     for (int k = 0; k < 4 && status == FF_OK; ++k) {
         uint32_t pose = (uint32_t)(moments[k] * last + 0.5);
         int x = MARGIN + (k % columns) * (panel_width + PANEL_GAP);
         int y = HEAD + (k / columns) * (panel_height + PANEL_GAP);
         char text[32];
+        ff_camera camera = ff_film_crowd_camera(f->recording, pose, width, height);
         ff_film_crowd_draw(&stage, f->scene, f->recording, pose, &camera, &raster);
         ff_picture_paste(f->picture, x, y, raster.rgb, width, height);
         snprintf(text, sizeof text, "%.1f s", pose * ff_recording_pose_step(f->recording));

@@ -3,6 +3,7 @@
 #define ELEVATION (32.0 * FF_DEG)
 #define VIEW_ANGLE (30.0 * FF_DEG)
 #define WALL_HEIGHT 0.4    /* m: one sees feet behind it */
+#define LEAST_VIEW 3.0     /* m */
 #define LONG 2.5           /* longer than wide */
 #define GROUND_MARGIN 14.0 /* m, tiles beyond everybody's paths */
 #define HEAD_ROOM 1.8
@@ -21,6 +22,21 @@ static void bounds(const ff_recording *recording, ff_vec3 *low, ff_vec3 *high)
     for (uint32_t k = 0; k < recording->step_count; k += 5)
         for (uint32_t i = 0; i < recording->agent_count; ++i)
             include(low, high, ff_recording_track(recording, k, i)->position);
+}
+
+/* Of those present at one step; somewhat larger than a single person. */
+static void bounds_at(const ff_recording *recording, uint32_t step, ff_vec3 *low, ff_vec3 *high)
+{
+    *low = ff_v3(1e9, 0.0, 1e9);
+    *high = ff_v3(-1e9, HEAD_ROOM, -1e9);
+    for (uint32_t i = 0; i < recording->agent_count; ++i) {
+        const ff_track *track = ff_recording_track(recording, step, i);
+        if (track->present) include(low, high, track->position);
+    }
+    if (low->x > high->x) include(low, high, ff_recording_track(recording, step, 0)->position);
+    double x = ff_max(0.0, LEAST_VIEW - (high->x - low->x)), z = ff_max(0.0, LEAST_VIEW - (high->z - low->z));
+    low->x -= 0.5 * x, high->x += 0.5 * x;
+    low->z -= 0.5 * z, high->z += 0.5 * z;
 }
 
 bool ff_film_crowd_is_long(const ff_recording *recording)
@@ -50,7 +66,7 @@ static bool sees(const ff_camera *camera, ff_vec3 low, ff_vec3 high, int width, 
     return seen[2] - seen[0] < 0.94 * width && seen[3] - seen[1] < 0.94 * height;
 }
 
-ff_camera ff_film_crowd_camera(const ff_recording *recording, int width, int height)
+ff_camera ff_film_crowd_camera(const ff_recording *recording, uint32_t pose, int width, int height)
 {
     ff_vec3 low, high;
     bounds(recording, &low, &high);
@@ -58,6 +74,7 @@ ff_camera ff_film_crowd_camera(const ff_recording *recording, int width, int hei
     bool along_x = high.z - low.z > high.x - low.x;
     ff_vec3 back =
         along_x ? ff_v3(-cos(ELEVATION), sin(ELEVATION), 0.0) : ff_v3(0.0, sin(ELEVATION), -cos(ELEVATION));
+    bounds_at(recording, pose * recording->pose_stride, &low, &high);
     ff_vec3 middle = ff_lerp3(low, high, 0.5);
     ff_camera camera = {0};
     for (double distance = 4.0; distance < 5000.0; distance *= 1.03) {
