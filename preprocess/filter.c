@@ -127,3 +127,14 @@ double ff_filter_quantile(double *values, int count, double share)
     int high = low + 1 < count ? low + 1 : low;
     return ff_lerp(values[low], values[high], at - low);
 }
+
+double ff_filter_noise(const ff_vec3 *points, int count, double *scratch)
+{
+    if (count < 4) return 0.0;
+    for (int i = 0; i + 3 < count; ++i) {
+        ff_vec3 near = ff_sub3(points[i + 1], points[i + 2]), far = ff_sub3(points[i + 3], points[i]);
+        scratch[i] = ff_length3(ff_madd3(far, near, 3.0));
+    }
+    /* A third difference of white noise has variance 20; the median length of a normal 3-vector is 1.538. */
+    return ff_filter_quantile(scratch, count - 3, 0.5) / (sqrt(20.0) * 1.538);
+}

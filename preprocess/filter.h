@@ -24,4 +24,8 @@ ff_vec3 ff_filter_velocity(const ff_vec3 *points, int count, int index, double r
 /* Value at share (0..1) of the sorted values; sorts them in place. count >= 1. */
 double ff_filter_quantile(double *values, int count, double share);
 
+/* Deviation (m, per coordinate) of white noise on the points, from their third differences, in which smooth motion
+ * at 100 Hz and more all but vanishes. scratch holds count numbers. */
+double ff_filter_noise(const ff_vec3 *points, int count, double *scratch);
+
 #endif
