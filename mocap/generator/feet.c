@@ -138,6 +138,14 @@ static double swing_shape(const ff_fourier *curve, double stance, double u, doub
     return scale * ff_fourier_at(curve, stance + u * span);
 }
 
+/* The toes leave last: they hang down from the rising ball with their tip on the floor. */
+static double dragged_toes(const ff_foot_pose *pose)
+{
+    double rise = ff_foot_ball(pose).y - FF_BODY_BALL_HEIGHT;
+    double sine = ff_clamp(rise / FF_BODY_TOES, 0.0, 0.8);
+    return -ff_atan2(sine, sqrt(1.0 - sine * sine)) - pose->pitch;
+}
+
 /* Both feet in the air: no measured shape, the body's flight carries them. */
 static ff_foot_pose leaping(const ff_plan *plan, const ff_swing *swing, const ff_footing *next, double t)
 {
@@ -151,17 +159,8 @@ static ff_foot_pose leaping(const ff_plan *plan, const ff_swing *swing, const ff
     ff_foot_pose pose = {.yaw = at.v[4] + root.heading, .pitch = at.v[3], .swinging = true};
     pose.ankle = ff_ground(ff_plan_to_world(&root, ff_v2(at.v[0], at.v[1])), at.v[2]);
     pose.toe_extension = ff_lerp(-swing->from.v[3], -swing->to.v[3], u) * (1.0 - 2.4 * u * (1.0 - u));
+    pose.toe_extension = ff_max(pose.toe_extension, dragged_toes(&pose));
     return pose;
-}
-
-/* The toes leave last: until toe off they point at where their tip stood. */
-static double dragged_toes(const ff_footing *last, const ff_foot_pose *pose)
-{
-    ff_vec3 ball = ff_foot_ball(pose);
-    ff_vec2 fwd = ff_fwd2(last->yaw + last->twist);
-    ff_vec2 to_tip = ff_sub2(ff_madd2(last->ball, fwd, FF_BODY_TOES), ff_plane(ball));
-    double along = ff_max(0.25 * FF_BODY_TOES, ff_dot2(to_tip, fwd));
-    return -ff_atan2(ball.y - FF_BODY_BALL_HEIGHT, along) - pose->pitch;
 }
 
 static ff_foot_pose swinging(const ff_plan *plan, int foot, const ff_footing *last, const ff_footing *next,
@@ -204,7 +203,8 @@ static ff_foot_pose swinging(const ff_plan *plan, int foot, const ff_footing *la
     pose.toe_extension = ff_lerp(bent, 8.0 * FF_DEG, ff_smooth(u / 0.35));
     pose.toe_extension = ff_lerp(pose.toe_extension, landing, ff_smooth((u - 0.6) / 0.4));
     double leave = ff_smooth((t - last->toe_off + 0.01) / 0.09);
-    if (leave < 1.0) pose.toe_extension = ff_lerp(dragged_toes(last, &pose), pose.toe_extension, leave);
+    if (leave < 1.0) pose.toe_extension = ff_lerp(dragged_toes(&pose), pose.toe_extension, leave);
+    pose.toe_extension = ff_max(pose.toe_extension, dragged_toes(&pose)); /* not through the floor */
     return pose;
 }
 

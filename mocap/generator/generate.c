@@ -88,7 +88,9 @@ static bool true_plant(const ff_footing *footing, int foot, int frame_count, ff_
 static int by_start(const void *a, const void *b)
 {
     const ff_true_plant *p = a, *q = b;
-    return p->start != q->start ? (p->start < q->start ? -1 : 1) : p->foot - q->foot;
+    if (p->start != q->start) return p->start < q->start ? -1 : 1;
+    if (p->end != q->end) return p->end < q->end ? -1 : 1;
+    return p->foot - q->foot;
 }
 
 /* Played backward, a foot lands on its ball while the toes already touch, and leaves with the toes up: each event is
@@ -153,6 +155,23 @@ static void reverse(ff_generated *g)
     qsort(g->plants, (size_t)g->plant_count, sizeof *g->plants, by_start);
 }
 
+/* Written so that nan is refused. */
+static ff_status check_options(const ff_generator_options *o, ff_error *error)
+{
+    int people = ff_generator_people();
+    if (o->person < 0 || o->person >= people)
+        return ff_fail(error, FF_ERR_ARGUMENT, "person %d: choose 0 to %d", o->person, people - 1);
+    if (!(o->noise_mm >= 0.0 && o->noise_mm <= 1000.0 && o->skate_cm >= 0.0 && o->skate_cm <= 1000.0))
+        return ff_fail(error, FF_ERR_ARGUMENT, "noise %g mm or skate %g cm: expected 0 to 1000", o->noise_mm,
+                       o->skate_cm);
+    if (!(fabs(o->floor_cm) <= 1e4 && fabs(o->tilt_deg) <= 45.0))
+        return ff_fail(error, FF_ERR_ARGUMENT, "floor %g cm or tilt %g degrees: expected at most 1e4 and 45",
+                       o->floor_cm, o->tilt_deg);
+    if (!(o->missing >= 0.0 && o->missing < 0.9))
+        return ff_fail(error, FF_ERR_ARGUMENT, "missing %g: expected 0 to 0.9", o->missing);
+    return FF_OK;
+}
+
 ff_status ff_generator_make(int index, const ff_generator_options *options, ff_generated *out,
                             ff_error *error)
 {
@@ -161,13 +180,8 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
     if (!options) options = &plain;
     if (index < 0 || index >= ff_recipe_count)
         return ff_fail(error, FF_ERR_ARGUMENT, "built-in clip %d: there are %d", index, ff_recipe_count);
-    if (options->person < 0 || options->person >= ff_generator_people())
-        return ff_fail(error, FF_ERR_ARGUMENT, "person %d: choose 0 to %d", options->person,
-                       ff_generator_people() - 1);
-    if (!(options->noise_mm >= 0.0 && options->skate_cm >= 0.0 && options->missing >= 0.0 &&
-          options->missing < 0.9))
-        return ff_fail(error, FF_ERR_ARGUMENT,
-                       "noise and skate must not be negative, missing must lie in [0, 0.9)");
+    ff_status status = check_options(options, error);
+    if (status != FF_OK) return status;
     const ff_recipe *recipe = &ff_recipes[index];
     ff_plan *plan = ff_calloc(1, sizeof *plan);
     if (!plan) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the plan of %s", recipe->info.name);
@@ -176,7 +190,8 @@ ff_status ff_generator_make(int index, const ff_generator_options *options, ff_g
     plan->style.backward = recipe->reversed;
     plan->style.seed = options->seed;
     int frames = recipe->plan(recipe, plan);
-    ff_status status = ff_body_clip(recipe->info.name, frames, &out->clip, error);
+    plan->style.side = plan->contacts[0].foot == 0 ? 1.0 : -1.0;
+    status = ff_body_clip(recipe->info.name, frames, &out->clip, error);
     if (status == FF_OK) {
         bool done = ff_plan_finish(plan);
         if (done && recipe->adjust) recipe->adjust(plan);

@@ -49,7 +49,7 @@ typedef struct ff_true_plant {
 
 typedef struct ff_generated {
     ff_clip clip;
-    ff_true_plant *plants; /* by start, then foot */
+    ff_true_plant *plants; /* by start, then end */
     int plant_count;
 } ff_generated;
 

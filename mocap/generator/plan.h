@@ -22,6 +22,7 @@ typedef struct ff_plan_style {
     double toe_out;   /* rad */
     double shift;     /* m, weight shifted from leg to leg in a stand */
     double breathing; /* size of breathing and idle sway, 1 = a calm person */
+    double side;      /* 1, or -1 in a clip of the other side: sway mirrors too */
     int person;       /* whose curves, 0 = the mean walker */
     uint64_t seed;    /* idle sway differs by seed */
 } ff_plan_style;

@@ -85,10 +85,11 @@ static void start_frame(const ff_plan *plan, double t, ff_frame *frame)
         ff_atan2(root->forward * root->turn, 9.81) + 0.10 * root->left; /* and into side steps */
     ff_root before = ff_plan_root(plan, t - 0.12), after = ff_plan_root(plan, t + 0.12);
     frame->lean_front = 0.4 * ff_atan2((after.forward - before.forward) / 0.24, 9.81);
-    double still = plan->style.breathing * (1.0 - 0.8 * frame->moving);
+    double still = plan->style.breathing * (1.0 - ff_smooth(speed / 0.2));
     frame->breath = plan->style.breathing * ff_sin(FF_TAU * t / 3.9);
     frame->sway[0] = 0.008 * still * slow_noise(plan->style.seed, 1, t);
-    frame->sway[1] = 0.016 * still * slow_noise(plan->style.seed, 2, t) + weight_shift(plan, t);
+    frame->sway[1] =
+        plan->style.side * (0.016 * still * slow_noise(plan->style.seed, 2, t) + weight_shift(plan, t));
     frame->gesture = ff_plan_gesture(plan, t);
     frame->bend = plan->style.bend + frame->gesture.bend;
     for (int foot = 0; foot < 2; ++foot)
@@ -220,8 +221,8 @@ static void pose_trunk(const ff_plan *plan, ff_frame *frame)
     ff_quat chest = turned(root->heading + yaw, pitch, roll);
     /* the head goes with the body, a little ahead of it */
     double ahead = ff_clamp(0.12 * root->turn, -0.25, 0.25);
-    double look = frame->moving < 1.0 ? 0.11 * plan->style.breathing * (1.0 - frame->moving) *
-                                            slow_noise(plan->style.seed, 3, frame->t)
+    double look = frame->moving < 1.0 ? plan->style.side * 0.11 * plan->style.breathing *
+                                            (1.0 - frame->moving) * slow_noise(plan->style.seed, 3, frame->t)
                                       : 0.0;
     ff_quat head = turned(root->heading + curve(frame, FF_CURVE_HEAD_YAW) + ahead + look,
                           curve(frame, FF_CURVE_HEAD_PITCH_FWD) + 0.35 * bend + 0.2 * frame->lean_front,
