@@ -83,7 +83,7 @@ static ff_foot_pose arriving(const ff_plan *plan, const ff_footing *next, const 
     /* a foot that lands flat is set down, not laid down */
     double flat = 1.0 - ff_smooth(next->pitch_contact / (12.0 * FF_DEG));
     double fall =
-        plan->style.run ? 0.45 : 0.10 + 0.03 * speed + 0.27 * flat * (1.0 - 0.6 * ff_smooth(speed / 0.5));
+        plan->style.run ? 0.45 : 0.10 + 0.03 * speed + 0.27 * flat * (1.0 - 0.3 * ff_smooth(speed / 0.5));
     ff_foot_pose almost = *landing;
     if (next->flat > next->contact)
         almost.pitch += INSTANT * SLAP * next->pitch_contact / (next->flat - next->contact);

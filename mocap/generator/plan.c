@@ -207,7 +207,8 @@ static void set_times(const ff_plan *plan, ff_footing *footing, double contact, 
     const ff_plan_style *style = &plan->style;
     double stride = 2.0 * step_time;
     double stance = ff_usual_stance(footing->speed, style->run);
-    if (footing->speed < 0.3 && !style->run) stance = 0.71; /* on the spot feet are quickly set over */
+    if (!style->run) /* on the spot feet are quickly set over */
+        stance = ff_lerp(0.71, stance, ff_smooth((footing->speed - 0.15) / 0.2));
     double flat = (style->run ? 0.043 : (style->backward ? 0.035 : 0.075)) *
                   ff_min(1.0, footing->pitch_contact / ((style->run ? 9.0 : 20.0) * FF_DEG));
     double push = style->run ? 0.215 : 0.25;
@@ -217,8 +218,9 @@ static void set_times(const ff_plan *plan, ff_footing *footing, double contact, 
     footing->toe_off = contact + stance * stride;
     double rolls =
         ff_smooth(footing->pitch_contact / (15.0 * FF_DEG)); /* a foot that lands flat leaves at once */
-    footing->release =
-        footing->toe_off - (style->run ? 0.09 : 0.02 + (style->backward ? 0.015 : 0.035) * rolls) * stride;
+    double drag = style->run ? 0.09 * stride : ff_min(0.02 * stride + 0.03 * rolls, 0.055 * stride);
+    if (style->backward) drag = (0.02 + 0.015 * rolls) * stride;
+    footing->release = footing->toe_off - drag;
     footing->heel_off = footing->toe_off - push * stride;
 }
 

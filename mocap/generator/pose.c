@@ -309,12 +309,12 @@ static bool spread(double *values, int count, int half)
 bool ff_pose_clip(const ff_plan *plan, ff_clip *clip)
 {
     double window = sideways(&plan->roots[0]) > 0.8 ? REACH_WINDOW_SIDE : REACH_WINDOW;
-    int half = (int)(window / clip->frame_time), count = clip->frame_count + 2 * half;
+    int half = (int)(window / clip->frame_time), margin = 2 * half, count = clip->frame_count + 2 * margin;
     double *excess = ff_calloc((size_t)count, sizeof *excess);
     if (!excess) return false;
     ff_frame frame;
     for (int i = 0; i < count; ++i) {
-        start_frame(plan, (i - half) * clip->frame_time, &frame);
+        start_frame(plan, (i - margin) * clip->frame_time, &frame);
         pose_pelvis(plan, &frame);
         excess[i] = excess_height(plan, &frame);
     }
@@ -322,7 +322,7 @@ bool ff_pose_clip(const ff_plan *plan, ff_clip *clip)
     for (int f = 0; done && f < clip->frame_count; ++f) {
         start_frame(plan, f * clip->frame_time, &frame);
         pose_pelvis(plan, &frame);
-        frame.hips.y -= excess[f + half];
+        frame.hips.y -= excess[f + margin];
         pose_trunk(plan, &frame);
         for (int side = 0; side < 2; ++side) {
             pose_leg(&frame, side);

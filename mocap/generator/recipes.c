@@ -109,7 +109,7 @@ static int plan_stop(const ff_recipe *recipe, ff_plan *plan)
     int foot = recipe->foot;
     int steady = 12;
     double start = 0.1 - 6.0 * step, last = start + (steady - 1) * step;
-    double before = last + whole(1.08 * step), close = before + whole(1.15 * step);
+    double before = last + whole(1.08 * step), close = before + whole(1.04 * step);
     add_contacts(plan, start, step, (foot + steady + 1) % 2, steady);
     add_contacts(plan, before, close - before, 1 - foot, 2);
     add_knot(plan, last - step, v, 0.0, 0.0);

@@ -218,7 +218,7 @@ static void steady_clips_repeat_at_least_four_equal_cycles(void **state)
                 ff_quat b = clip->rotations[(size_t)(f + cycle) * FF_ROLE_COUNT + (size_t)j];
                 bool leg = clip->joints[j].role >= FF_ROLE_HIP_L && clip->joints[j].role <= FF_ROLE_BALL_R;
                 /* they breathe, not in step */
-                FF_ASSERT_BELOW(ff_quat_angle(ff_quat_mul(ff_quat_conj(a), b)), leg ? 1e-4 : 0.05);
+                FF_ASSERT_BELOW(ff_quat_angle(ff_quat_mul(ff_quat_conj(a), b)), leg ? 2e-5 : 0.05);
             }
         check_pace(clip, &info, first, cycle);
     }
