@@ -1,0 +1,149 @@
+/* The report of a whole pack: complete, self-contained, well-formed. */
+#define _GNU_SOURCE
+#include "preprocess/report.h"
+
+#include "preprocess/build.h"
+#include "preprocess/report_parts.h"
+#include "runtime/core/base/file.h"
+#include "tests/check.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+typedef struct page {
+    void *image;
+    ff_pack *pack;
+    char *text; /* the HTML */
+} page;
+
+static page shared; /* made once for all tests */
+
+static int page_make(void **state)
+{
+    (void)state;
+    page p;
+    ff_error error;
+    ff_build_settings settings = ff_build_settings_default();
+    ff_build_result built;
+    size_t size;
+    settings.quiet = true;
+    FF_ASSERT_OK(ff_build(NULL, &settings, &built, &error), error);
+    FF_ASSERT_OK(ff_pack_image(&built.content, &p.image, &size, &error), error);
+    ff_build_result_free(&built);
+    FF_ASSERT_OK(ff_pack_open_memory(p.image, size, &p.pack, &error), error);
+    char folder[] = "/tmp/ff-report-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    FF_ASSERT_OK(ff_report_write(p.pack, "a & b <built-in>", folder, &error), error);
+    snprintf(path, sizeof path, "%s/report.html", folder);
+    ff_file file;
+    FF_ASSERT_OK(ff_file_map(path, &file, &error), error);
+    p.text = calloc(1, file.size + 1);
+    assert_non_null(p.text);
+    memcpy(p.text, file.data, file.size);
+    ff_file_unmap(&file);
+    unlink(path);
+    rmdir(folder);
+    shared = p;
+    return 0;
+}
+
+static int page_free(void **state)
+{
+    (void)state;
+    ff_pack_close(shared.pack);
+    free(shared.image);
+    free(shared.text);
+    return 0;
+}
+
+static uint32_t count(const char *text, const char *what)
+{
+    uint32_t n = 0;
+    for (const char *at = text; (at = strstr(at, what)); at += strlen(what))
+        ++n;
+    return n;
+}
+
+static uint32_t unmirrored(const ff_pack *pack)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < pack->action_count; ++i)
+        n += !(pack->actions[i].flags & FF_ACTION_MIRRORED);
+    return n;
+}
+
+static void shows_every_clip_plant_action_and_example(void **state)
+{
+    (void)state;
+    page p = shared;
+    assert_int_equal(count(p.text, "<h2 id=\"clip-"), p.pack->clip_count);
+    assert_int_equal(count(p.text, "class=\"plant\""), p.pack->plant_count);
+    assert_int_equal(count(p.text, "class=\"card\""), unmirrored(p.pack));
+    assert_int_equal(count(p.text, "class=\"hull\""), 1);
+    assert_true(count(p.text, "<tr><td>") >= p.pack->example_count);
+    assert_true(count(p.text, "class=\"rejected\"") >= p.pack->clip_count); /* at least what the ends cut */
+    assert_int_equal(count(p.text, "class=\"rejected\""), count(p.text, "<li>"));
+}
+
+static void is_well_formed_and_needs_no_other_file(void **state)
+{
+    (void)state;
+    static const char *const forbidden[] = {
+        "nan", "inf\"", "http:", "https:", "src=", "url(", "<script", "b <built-in>"};
+    static const char *const paired[][2] = {{"<svg", "</svg>"},         {"<div", "</div>"},
+                                            {"<details", "</details>"}, {"<g ", "</g>"},
+                                            {"<table", "</table>"},     {"<title>", "</title>"}};
+    page p = shared;
+    for (size_t i = 0; i < sizeof forbidden / sizeof *forbidden; ++i)
+        if (strstr(p.text, forbidden[i])) {
+            print_error("the page holds '%s'\n", forbidden[i]);
+            fail();
+        }
+    for (size_t i = 0; i < sizeof paired / sizeof *paired; ++i)
+        assert_int_equal(count(p.text, paired[i][0]), count(p.text, paired[i][1]));
+    assert_non_null(strstr(p.text, "a &amp; b &lt;built-in&gt;"));
+    assert_string_equal(p.text + strlen(p.text) - 8, "</html>\n");
+}
+
+static void poses_are_those_of_people(void **state)
+{
+    (void)state;
+    page p = shared;
+    ff_vec3 at[FF_PACK_MAX_JOINTS + FF_POINT_COUNT];
+    for (uint32_t c = 0; c < p.pack->clip_count; c += 5) {
+        const ff_pack_clip *clip = &p.pack->clips[c];
+        const ff_pack_stream *stream = &p.pack->streams[clip->stream];
+        assert_int_equal(ff_report_frame(p.pack, clip, -1.0), stream->first_frame);
+        assert_int_equal(ff_report_frame(p.pack, clip, 1e6), stream->first_frame + stream->frame_count - 1);
+        ff_report_pose(p.pack, ff_report_frame(p.pack, clip, (double)clip->time_offset + 0.5), at);
+        const ff_vec3 *point = at + p.pack->joint_count;
+        assert_true(point[FF_POINT_HEAD_TOP].y > 1.0 && point[FF_POINT_HEAD_TOP].y < 2.2);
+        FF_ASSERT_BELOW(ff_min(point[FF_POINT_TOE_L].y, point[FF_POINT_TOE_R].y), 0.4);
+    }
+}
+
+static void long_names_are_cut_and_escaped(void **state)
+{
+    (void)state;
+    char name[2000];
+    memset(name, '&', sizeof name - 1);
+    name[sizeof name - 1] = 0;
+    ff_text text = {.failed = false};
+    ff_report_text(&text, name);
+    assert_false(text.failed);
+    assert_true(text.bytes.count > 400 && text.bytes.count <= 500);
+    assert_memory_equal(text.bytes.data, "&amp;&amp;", 10);
+    assert_memory_equal((char *)text.bytes.data + text.bytes.count - 5, "&amp;", 5);
+    ff_text_free(&text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shows_every_clip_plant_action_and_example),
+        cmocka_unit_test(is_well_formed_and_needs_no_other_file),
+        cmocka_unit_test(poses_are_those_of_people),
+        cmocka_unit_test(long_names_are_cut_and_escaped),
+    };
+    return cmocka_run_group_tests(tests, page_make, page_free);
+}
