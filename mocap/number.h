@@ -8,6 +8,9 @@
 /* Any well-formed number of length characters at begin; false when it is too long or beyond the range of double. */
 bool ff_number_slow(const char *begin, const char *end, double *out);
 
+/* Correctly rounded digits / 10^places, for digits > 0 and places from 0 to 19. */
+double ff_number_divide(uint64_t digits, int places);
+
 /* The word at p may be the beginning of a number that was cut off: nothing follows it on its line. */
 bool ff_number_may_be_cut(const char *p);
 
@@ -19,7 +22,8 @@ extern const double ff_powers_of_ten[23];
  * numbers here). The text must end in a newline.
  *
  * Up to 19 digits are gathered in an integer; when it and the power of ten are both exact as doubles, one multiplication
- * or division rounds correctly (Clinger 1990, the fast path). All else goes the slow way. */
+ * or division rounds correctly (Clinger 1990, the fast path). With more digits, as programs print that want to read back
+ * the same bits, an integer division does; all else goes the slow way. */
 static inline const char *ff_number_scan(const char *p, double *out)
 {
     const char *begin = p;
@@ -53,13 +57,17 @@ static inline const char *ff_number_scan(const char *p, double *out)
         exponent += small ? -written : written;
     }
     if ((unsigned char)*p > ' ') return 0;
+    double value;
     if (count <= 19 && digits <= (UINT64_C(1) << 53) && exponent >= -22 && exponent <= 22) {
-        double value = (double)digits;
+        value = (double)digits;
         value = exponent < 0 ? value / ff_powers_of_ten[-exponent] : value * ff_powers_of_ten[exponent];
-        *out = negative ? -value : value;
-        return p;
+    } else if (count <= 19 && digits > 0 && exponent >= -19 && exponent <= 0) {
+        value = ff_number_divide(digits, -exponent);
+    } else {
+        return ff_number_slow(begin, p, out) ? p : 0;
     }
-    return ff_number_slow(begin, p, out) ? p : 0;
+    *out = negative ? -value : value;
+    return p;
 }
 
 #endif

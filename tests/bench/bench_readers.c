@@ -15,7 +15,7 @@ enum { ROUNDS = 9, BONES = 30, FRAMES = 3000 };
 static double seconds(void)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now); /* of this one core, whatever else the machine does */
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 

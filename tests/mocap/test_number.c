@@ -41,6 +41,29 @@ static void numbers_as_motion_files_write_them_are_rounded_like_strtod(void **st
     }
 }
 
+/* 19 digits and up to 19 decimals, many of them halfway between two doubles or a hair beside. */
+static void many_digits_are_rounded_like_strtod(void **state)
+{
+    (void)state;
+    ff_random random = {9, 2, 0};
+    for (int i = 0; i < 60000; ++i) {
+        char text[64], whole[24];
+        uint64_t digits = ff_random_next(&random) % UINT64_C(10000000000000000000);
+        if (i % 3 == 0) { /* the middle of two neighbours among the doubles above 2^53, plus -1, 0 or 1 */
+            uint64_t bits = (ff_random_next(&random) >> 11) | (UINT64_C(1) << 52);
+            digits = ((bits << 1 | 1u) << (ff_random_next(&random) % 9)) + ff_random_next(&random) % 3 - 1;
+        }
+        int length = snprintf(whole, sizeof whole, "%llu", (unsigned long long)digits);
+        int places = (int)(ff_random_next(&random) % 20);
+        if (places >= length) {
+            snprintf(text, sizeof text, "-0.%0*d%s", places - length + 1, 0, whole);
+        } else {
+            snprintf(text, sizeof text, "%.*s.%s", length - places, whole, whole + length - places);
+        }
+        assert_same_bits_as_strtod(text);
+    }
+}
+
 static void odd_but_legal_spellings_are_read(void **state)
 {
     (void)state;
@@ -110,6 +133,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_as_motion_files_write_them_are_rounded_like_strtod),
+        cmocka_unit_test(many_digits_are_rounded_like_strtod),
         cmocka_unit_test(odd_but_legal_spellings_are_read),
         cmocka_unit_test(everything_else_is_refused),
         cmocka_unit_test(the_scan_stops_behind_the_number),
