@@ -2,6 +2,8 @@
 
 #include "runtime/core/leg_ik.h"
 
+#define SWAY_AHEAD 0.004 /* m, of standing hips */
+#define SWAY_ASIDE 0.008
 #define MOST_DROP 0.12 /* m */
 #define DROP_FREQUENCY                                                                                       \
     14.0 /* rad/s, of the critically damped follower (about 0.2 s to settle; study, section 4.5) */
@@ -13,6 +15,13 @@ bool ff_gait_idle_cursor(const ff_blend_space *space, const ff_gait *gait, ff_cu
     return true;
 }
 
+/* Nobody stands like a post: the weight goes slowly from foot to foot, whatever the idle example does. */
+static ff_vec3 idle_sway(double idle_time)
+{
+    double side = ff_sin(idle_time * FF_TAU / 7.3) + 0.6 * ff_sin(idle_time * FF_TAU / 4.1);
+    return ff_v3(SWAY_AHEAD * ff_sin(idle_time * FF_TAU / 5.7), SWAY_ASIDE * side, 0.0);
+}
+
 void ff_gait_hips(const ff_blend_space *space, const ff_gait *gait, const ff_cursor *cursor, ff_vec2 position,
                   double heading, ff_vec3 *hips, ff_quat *rotation)
 {
@@ -21,7 +30,8 @@ void ff_gait_hips(const ff_blend_space *space, const ff_gait *gait, const ff_cur
     ff_cursor idle;
     if (ff_gait_idle_cursor(space, gait, &idle)) {
         double share = ff_smooth(gait->stand);
-        place = ff_lerp3(place, ff_sample_hips(space, &idle), share);
+        ff_vec3 standing = ff_add3(ff_sample_hips(space, &idle), idle_sway(gait->idle_time));
+        place = ff_lerp3(place, standing, share);
         turn = ff_quat_nlerp(turn, ff_sample_rotation(space, &idle, FF_JOINT_HIPS), share);
     }
     ff_vec2 ground = ff_add2(position, ff_from_frame2(ff_fwd2(heading), ff_v2(place.x, place.y)));

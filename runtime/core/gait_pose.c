@@ -2,6 +2,8 @@
 #include "runtime/core/gait_hips.h"
 #include "runtime/core/leg_ik.h"
 
+#define BREATH (0.7 * FF_DEG)
+#define LOOK (5.0 * FF_DEG)
 #define TOE_CLEARANCE 0.015 /* m, over the rest height of the toe tip (gait facts: people 1.4 to 2.3 cm) */
 
 /* Blended local rotations of everything but the hips, the idle pose mixed in while standing. */
@@ -17,6 +19,18 @@ static void sample_joints(const ff_blend_space *space, const ff_gait *gait, cons
         if (standing && share < 1.0)
             rotations[j] = ff_quat_nlerp(rotations[j], ff_sample_rotation(space, &idle, j), share);
     }
+}
+
+/* A standing person breathes and looks about. */
+static void apply_idle_life(const ff_gait *gait, ff_quat *rotations)
+{
+    double share = ff_smooth(gait->stand), t = gait->idle_time;
+    if (share <= 0.0) return;
+    double breath = BREATH * ff_sin(t * FF_TAU / 3.9);
+    double look = LOOK * (ff_sin(t * FF_TAU / 11.3) + 0.5 * ff_sin(t * FF_TAU / 6.1));
+    ff_quat bend = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), share * breath);
+    rotations[FF_JOINT_CHEST] = ff_quat_mul(bend, rotations[FF_JOINT_CHEST]);
+    rotations[FF_JOINT_NECK] = ff_quat_mul(ff_quat_yaw(share * look), rotations[FF_JOINT_NECK]);
 }
 
 /* The person: how far the arms swing about the idle pose, how upright the spine is. */
@@ -125,6 +139,7 @@ void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 posi
     hips->y -= gait->hips_drop;
     sample_joints(space, gait, &cursor, rotations);
     apply_style(space, gait, rotations);
+    apply_idle_life(gait, rotations);
     for (int foot = 0; foot < 2; ++foot)
         pose_leg(&space->body, &gait->foot[foot], foot, *hips, rotations[FF_JOINT_HIPS], rotations);
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
