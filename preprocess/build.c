@@ -136,7 +136,7 @@ static ff_status run_stage(build *b, const char *what, void (*stage)(void *, uin
 
 static ff_status make_rig(build *b, ff_error *error)
 {
-    const ff_clip **clips = ff_calloc((size_t)b->good, sizeof *clips);
+    const ff_clip **clips = ff_calloc((size_t)b->good, sizeof(const ff_clip *));
     if (!clips) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
     for (int i = 0; i < b->good; ++i)
         clips[i] = &b->clips[i].clip;

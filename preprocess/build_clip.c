@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 void ff_build_clip_free(ff_build_clip *clip)
@@ -34,7 +33,7 @@ static ff_status trim(ff_clip *clip, int first, int last, ff_error *error)
         return FF_ERR_RANGE;
     }
     size_t joints = (size_t)clip->joint_count, tracks = (size_t)clip->track_count,
-           n = (size_t)(last - first + 1);
+           n = (size_t)last - (size_t)first + 1;
     memmove(clip->rotations, clip->rotations + (size_t)first * joints, n * joints * sizeof *clip->rotations);
     if (tracks)
         memmove(clip->positions, clip->positions + (size_t)first * tracks,

@@ -109,7 +109,7 @@ static ff_status add_simplices(ff_pack_content *content, const ff_example_set *s
                                ff_error *error)
 {
     ff_vec3 points[FF_SIMPLICES_MAX_POINTS];
-    int id[FF_SIMPLICES_MAX_POINTS], count = 0;
+    int id[FF_SIMPLICES_MAX_POINTS] = {0}, count = 0;
     for (int i = 0; i < set->count && count < FF_SIMPLICES_MAX_POINTS; ++i) {
         const ff_pack_example *r = &set->items[i].record;
         if (r->gait != gait || (r->flags & FF_EXAMPLE_IDLE)) continue;

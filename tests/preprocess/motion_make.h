@@ -36,8 +36,9 @@ static inline ff_rig rig_of(const ff_clip *clip)
 /* The clip's motion; made owns the clip from now on. */
 static inline made_motion make_motion(const ff_rig *rig, ff_clip clip)
 {
-    made_motion made = {.clip = clip};
+    made_motion made;
     ff_error error;
+    made.clip = clip;
     FF_ASSERT_OK(ff_plants_find(&made.clip, &made.plants, &error), error);
     FF_ASSERT_OK(ff_motion_from_clip(rig, &made.clip, &made.plants, &made.motion, &error), error);
     return made;

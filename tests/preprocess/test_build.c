@@ -9,6 +9,7 @@
 #include "runtime/core/pack.h"
 #include "tests/check.h"
 
+#include <dirent.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -41,9 +42,11 @@ static void image_free(image *x)
 
 /* ------------------------------------------------------------------------------------------------ files to build from */
 
+#define FOLDER_NAME "/tmp/ff-build-XXXXXX"
+
 static void make_folder(char *folder)
 {
-    strcpy(folder, "/tmp/ff-build-XXXXXX");
+    memcpy(folder, FOLDER_NAME, sizeof FOLDER_NAME);
     assert_non_null(mkdtemp(folder));
 }
 
@@ -68,9 +71,15 @@ static void write_text(const char *folder, const char *name, const char *text)
 
 static void remove_folder(const char *folder)
 {
-    char command[256];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    assert_int_equal(system(command), 0);
+    DIR *listing = opendir(folder);
+    assert_non_null(listing);
+    for (struct dirent *entry = readdir(listing); entry; entry = readdir(listing)) {
+        char path[sizeof entry->d_name + 64];
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (entry->d_name[0] != '.') assert_int_equal(unlink(path), 0);
+    }
+    closedir(listing);
+    assert_int_equal(rmdir(folder), 0);
 }
 
 static ff_catalogue catalogue_of(const char *const *inputs, int count)

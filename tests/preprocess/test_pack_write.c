@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 /* A pack with an odd number of bytes in most sections, so that there is padding to get wrong. */
