@@ -347,6 +347,30 @@ static void the_state_depends_on_nothing_but_its_arguments(void **state)
     assert_memory_equal(&first.gait, &second.gait, sizeof first.gait);
 }
 
+static ff_rates round_and_round(double t)
+{
+    return (ff_rates){ramp(0.8, t, 1.0), 0.0, ramp(1.2, t, 1.0)};
+}
+
+/* The crowd keeps headings in (-pi, pi]: nothing may jump where they wrap. */
+static void full_turns_make_no_difference(void **state)
+{
+    static walk plain, wrapped;
+    begin(*state, &plain, 14);
+    begin(*state, &wrapped, 14);
+    for (int i = 0; i < 12 * HZ; ++i) {
+        frame seen, same;
+        go(&plain, round_and_round(i * DT), DT);
+        go(&wrapped, round_and_round(i * DT), DT);
+        wrapped.heading = ff_wrap(wrapped.heading);
+        look(&plain, &seen);
+        look(&wrapped, &same);
+        for (int p = 0; p < POINT_COUNT; ++p)
+            FF_ASSERT_BELOW(ff_length3(ff_sub3(seen.point[p], same.point[p])), 1e-6);
+    }
+    FF_ASSERT_BELOW(2.0 * FF_TAU, plain.heading);
+}
+
 static void walk_one(void *context, uint32_t index)
 {
     walk *w = (walk *)context + index;
@@ -399,6 +423,7 @@ int main(void)
         cmocka_unit_test(turning_on_the_spot_is_done_in_steps),
         cmocka_unit_test(the_foot_on_the_side_one_goes_to_steps_first),
         cmocka_unit_test(the_state_depends_on_nothing_but_its_arguments),
+        cmocka_unit_test(full_turns_make_no_difference),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
