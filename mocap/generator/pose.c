@@ -84,7 +84,7 @@ static void start_frame(const ff_plan *plan, double t, ff_frame *frame)
     frame->lean_left =
         ff_atan2(root->forward * root->turn, 9.81) + 0.10 * root->left; /* and into side steps */
     ff_root before = ff_plan_root(plan, t - 0.12), after = ff_plan_root(plan, t + 0.12);
-    frame->lean_front = 0.4 * ff_atan2((after.forward - before.forward) / 0.24, 9.81);
+    frame->lean_front = 0.6 * ff_atan2((after.forward - before.forward) / 0.24, 9.81);
     double still = plan->style.breathing * (1.0 - ff_smooth(speed / 0.2));
     frame->breath = plan->style.breathing * ff_sin(FF_TAU * t / 3.9);
     frame->sway[0] = 0.008 * still * slow_noise(plan->style.seed, 1, t);

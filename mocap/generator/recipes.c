@@ -237,9 +237,9 @@ static void adjust_jump(ff_plan *plan)
     {                                                                                                        \
         {name, text, tags, mode, v, l, w, true}, plan_steady, NULL, 0.0, 0, true, style                      \
     }
-#define MOVE(name, text, tags, mode, plan, adjust, amount, foot)                                             \
+#define MOVE(name, text, tags, mode, plan, adjust, amount, foot, style)                                      \
     {                                                                                                        \
-        {name, text, tags, mode, 0, 0, 0, false}, plan, adjust, amount, foot, false, USUAL                   \
+        {name, text, tags, mode, 0, 0, 0, false}, plan, adjust, amount, foot, false, style                   \
     }
 
 /* One line per clip. */
@@ -283,20 +283,20 @@ const ff_recipe ff_recipes[] = {
     BACK("back-diagonal-left", "backward and to the left", "walk back diagonal left", "walk", -0.45, 0.30, 0, CALM_ARMS),
     BACK("back-diagonal-right", "backward and to the right", "walk back diagonal right", "walk", -0.45, -0.30, 0, CALM_ARMS),
     PACE("crouch", "crouched walk, 0.7 m/s", "crouch walk straight", "crouch", 0.70, 0, 0, CROUCHED),
-    MOVE("start-left", "from standing to walking, left foot first", "start left", "walk", plan_start, NULL, 1.27, 0),
-    MOVE("start-right", "from standing to walking, right foot first", "start right", "walk", plan_start, NULL, 1.27, 1),
-    MOVE("start-slow", "from standing to a slow walk", "start left slow", "walk", plan_start, NULL, 0.85, 0),
-    MOVE("stop-left", "from walking to standing, left foot last", "stop left", "walk", plan_stop, NULL, 1.27, 0),
-    MOVE("stop-right", "from walking to standing, right foot last", "stop right", "walk", plan_stop, NULL, 1.27, 1),
-    MOVE("stop-slow", "from a slow walk to standing", "stop left slow", "walk", plan_stop, NULL, 0.85, 0),
-    MOVE("turn-left-45", "turn on the spot, 45 degrees left", "turn left", "turn", plan_turn, NULL, 45 * FF_DEG, 0),
-    MOVE("turn-right-45", "turn on the spot, 45 degrees right", "turn right", "turn", plan_turn, NULL, -45 * FF_DEG, 0),
-    MOVE("turn-left-90", "turn on the spot, 90 degrees left", "turn left", "turn", plan_turn, NULL, 90 * FF_DEG, 0),
-    MOVE("turn-right-90", "turn on the spot, 90 degrees right", "turn right", "turn", plan_turn, NULL, -90 * FF_DEG, 0),
-    MOVE("turn-left-180", "turn on the spot, 180 degrees left", "turn left", "turn", plan_turn, NULL, 180 * FF_DEG, 0),
-    MOVE("turn-right-180", "turn on the spot, 180 degrees right", "turn right", "turn", plan_turn, NULL, -180 * FF_DEG, 0),
-    MOVE("jump", "jump forward from standing", "jump", "jump", plan_jump, adjust_jump, 0, 0),
-    MOVE("idle", "standing, breathing and swaying a little", "idle stand", "idle", plan_idle, NULL, 0, 0),
+    MOVE("start-left", "from standing to walking, left foot first", "start left", "walk", plan_start, NULL, 1.27, 0, USUAL),
+    MOVE("start-right", "from standing to walking, right foot first", "start right", "walk", plan_start, NULL, 1.27, 1, USUAL),
+    MOVE("start-slow", "from standing to a slow walk", "start left slow", "walk", plan_start, NULL, 0.85, 0, USUAL),
+    MOVE("stop-left", "from walking to standing, left foot last", "stop left", "walk", plan_stop, NULL, 1.27, 0, USUAL),
+    MOVE("stop-right", "from walking to standing, right foot last", "stop right", "walk", plan_stop, NULL, 1.27, 1, USUAL),
+    MOVE("stop-slow", "from a slow walk to standing", "stop left slow", "walk", plan_stop, NULL, 0.85, 0, USUAL),
+    MOVE("turn-left-45", "turn on the spot, 45 degrees left", "turn left", "turn", plan_turn, NULL, 45 * FF_DEG, 0, CALM_ARMS),
+    MOVE("turn-right-45", "turn on the spot, 45 degrees right", "turn right", "turn", plan_turn, NULL, -45 * FF_DEG, 0, CALM_ARMS),
+    MOVE("turn-left-90", "turn on the spot, 90 degrees left", "turn left", "turn", plan_turn, NULL, 90 * FF_DEG, 0, CALM_ARMS),
+    MOVE("turn-right-90", "turn on the spot, 90 degrees right", "turn right", "turn", plan_turn, NULL, -90 * FF_DEG, 0, CALM_ARMS),
+    MOVE("turn-left-180", "turn on the spot, 180 degrees left", "turn left", "turn", plan_turn, NULL, 180 * FF_DEG, 0, CALM_ARMS),
+    MOVE("turn-right-180", "turn on the spot, 180 degrees right", "turn right", "turn", plan_turn, NULL, -180 * FF_DEG, 0, CALM_ARMS),
+    MOVE("jump", "jump forward from standing", "jump", "jump", plan_jump, adjust_jump, 0, 0, USUAL),
+    MOVE("idle", "standing, breathing and swaying a little", "idle stand", "idle", plan_idle, NULL, 0, 0, USUAL),
     {{"idle-shift", "standing, weight shifting from leg to leg", "idle stand", "idle", 0, 0, 0, false}, plan_idle, NULL, 0, 0, false, SHIFTING},
 };
 /* clang-format on */
