@@ -56,7 +56,8 @@ static void give_way_to_fate(bool taken, double distance, const ff_nav_world *wo
         return;
     }
     /* First round the preferred side, then the other, then wider. */
-    double size = ff_min(DETOUR_FIRST + DETOUR_MORE * (double)(mind->detours / 2), DETOUR_MAX);
+    uint32_t pairs = mind->detours / 2;
+    double size = ff_min(DETOUR_FIRST + DETOUR_MORE * pairs, DETOUR_MAX);
     double side = (mind->detours % 2 == 0) == (world->keep_right >= 0.0) ? -1.0 : 1.0;
     mind->detour = side * size;
     mind->detour_left = DETOUR_TIME;

@@ -173,7 +173,8 @@ static bool covers(ff_line line, const ff_wall *wall, ff_vec2 p, double radius, 
 uint32_t ff_orca_walls(const ff_wall *const *walls, uint32_t count, ff_vec2 p, ff_vec2 own, double radius,
                        double horizon, ff_line *lines, uint32_t line_count)
 {
-    exit_point exits[FF_WALL_LINES_MAX];
+    if (count == 0) return line_count;
+    exit_point exits[FF_WALL_LINES_MAX] = {0};
     uint32_t exit_count = 0, first = line_count;
     for (uint32_t i = 0; i < count && i < FF_WALL_LINES_MAX; ++i) {
         exit_point exit;

@@ -61,8 +61,9 @@ static void plaza(const ff_pack *pack, uint32_t agents)
     ff_crowd *crowd = new_crowd(pack, agents);
     uint32_t side = (uint32_t)ceil(sqrt(agents));
     for (uint32_t i = 0; i < agents; ++i) {
-        ff_vec2 cell = ff_v2(i % side + ff_random_range(&random, -0.2, 0.2),
-                             i / side + ff_random_range(&random, -0.2, 0.2));
+        uint32_t row = i / side, column = i % side;
+        ff_vec2 cell =
+            ff_v2(column + ff_random_range(&random, -0.2, 0.2), row + ff_random_range(&random, -0.2, 0.2));
         ff_vec2 p = ff_scale2(cell, 1.0 / sqrt(DENSITY));
         trial_add(crowd, &t, &random, p, ff_madd2(p, ff_fwd2(ff_random_range(&random, -FF_PI, FF_PI)), 20.0));
     }

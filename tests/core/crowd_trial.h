@@ -53,7 +53,8 @@ static inline void trial_block(ff_crowd *crowd, const trial *t, ff_random *rando
 {
     /* Columns across the way, rows backwards from the corner's row. */
     for (uint32_t i = 0; i < count; ++i) {
-        double back = (i / columns) * spacing + ff_random_range(random, -jitter, jitter);
+        uint32_t row = i / columns;
+        double back = row * spacing + ff_random_range(random, -jitter, jitter);
         double across = ((double)(i % columns) - 0.5 * (columns - 1)) * spacing +
                         ff_random_range(random, -jitter, jitter);
         ff_vec2 p = ff_madd2(ff_madd2(corner, way, -back), ff_left2(way), across);
@@ -90,9 +91,9 @@ static inline void trial_lay_out(ff_crowd *crowd, const trial *t)
             ff_vec2 way = ff_fwd2(FF_PI * (0.25 + 0.5 * corner));
             ff_vec2 centre = ff_scale2(way, -12.0 * sqrt(2.0)), axis = ff_fwd2(0.5 * FF_PI * corner);
             for (int i = 0; i < 25; ++i) {
-                ff_vec2 p =
-                    ff_madd2(centre, axis, (i % 5 - 2) * 1.11 + ff_random_range(&random, -0.125, 0.125));
-                p = ff_madd2(p, ff_left2(axis), (i / 5 - 2) * 1.11 + ff_random_range(&random, -0.125, 0.125));
+                int row = i / 5 - 2, column = i % 5 - 2;
+                ff_vec2 p = ff_madd2(centre, axis, column * 1.11 + ff_random_range(&random, -0.125, 0.125));
+                p = ff_madd2(p, ff_left2(axis), row * 1.11 + ff_random_range(&random, -0.125, 0.125));
                 trial_add(crowd, t, &random, p, ff_madd2(p, way, 24.0 * sqrt(2.0)));
             }
         }

@@ -97,7 +97,7 @@ static void random_programmes_agree_with_brute_force(void **state)
     ff_random random = {1, 2, 0};
     uint32_t solved = 0, failed = 0;
     for (int round = 0; round < 4000; ++round) {
-        ff_line lines[12];
+        ff_line lines[12] = {0};
         uint32_t count = (uint32_t)(1 + round % 12);
         for (uint32_t i = 0; i < count; ++i)
             lines[i] = i % 2 ? random_line(&random, 0.8) : hard_line(&random);
@@ -157,7 +157,7 @@ static void the_weighted_dense_fallback_agrees_with_brute_force(void **state)
     ff_random random = {3, 4, 0};
     int infeasible = 0;
     for (int round = 0; round < 1500 && infeasible < 250; ++round) {
-        ff_line lines[13];
+        ff_line lines[13] = {0};
         uint32_t hard = (uint32_t)(round % 4), count = hard + 3 + (uint32_t)(round % 8);
         for (uint32_t i = 0; i < count; ++i)
             lines[i] = i < hard ? hard_line(&random) : random_line(&random, 0.6);
