@@ -46,8 +46,8 @@ static void draw_title(const film *f)
     for (uint32_t i = 0; i < recording->agent_count; ++i)
         reached += ff_recording_track(recording, last, i)->reached;
     char text[160];
-    snprintf(text, sizeof text, "%u agents, %u reached their goals in %.1f s. Ground tiles are 1 m.",
-             recording->agent_count, reached, last * recording->step);
+    snprintf(text, sizeof text, "%u agents, %u reached their goals in %.1f s. Ground tiles are %.0f m.",
+             recording->agent_count, reached, last * recording->step, ff_film_crowd_tile(recording));
     const char *title = f->scene->title[0] ? f->scene->title : ff_scene_kind_name(f->scene->kind);
     ff_picture_text(f->picture, (ff_pixel){MARGIN, 56}, 24, FF_ALIGN_LEFT, ink, title);
     ff_picture_text(f->picture, (ff_pixel){MARGIN, 88}, 14, FF_ALIGN_LEFT, grey, text);

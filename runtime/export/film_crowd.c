@@ -47,6 +47,13 @@ bool ff_film_crowd_is_long(const ff_recording *recording)
     return ff_max(x, z) > LONG * ff_min(x, z);
 }
 
+double ff_film_crowd_tile(const ff_recording *recording)
+{
+    ff_vec3 low, high;
+    bounds(recording, &low, &high);
+    return ff_ground_tile(high.x - low.x, high.z - low.z);
+}
+
 /* Whether every corner of the box is on the picture; the box of what is seen goes to seen[4] (left, top, right,
  * bottom). */
 static bool sees(const ff_camera *camera, ff_vec3 low, ff_vec3 high, int width, int height, double seen[4])
@@ -77,8 +84,8 @@ ff_camera ff_film_crowd_camera(const ff_recording *recording, uint32_t pose, int
     bounds_at(recording, pose * recording->pose_stride, &low, &high);
     ff_vec3 middle = ff_lerp3(low, high, 0.5);
     ff_camera camera = {0};
-    for (double distance = 4.0; distance < 5000.0; distance *= 1.03) {
-        double seen[4];
+    double distance = 4.0, seen[4] = {0};
+    for (int tries = 0; tries < 300; ++tries, distance *= 1.03) { /* up to 28 km */
         camera = ff_camera_look(ff_madd3(middle, back, distance), middle, ff_v3(0.0, 1.0, 0.0), true);
         camera.scale = 0.5 * width / tan(0.5 * VIEW_ANGLE);
         if (!sees(&camera, low, high, width, height, seen)) continue;
@@ -94,13 +101,16 @@ static void draw_ground(const ff_recording *recording, const ff_camera *camera, 
     static const ff_colour tile[2] = {{214, 213, 207}, {222, 221, 216}};
     ff_vec3 low, high;
     bounds(recording, &low, &high);
-    double x0 = floor(low.x) - GROUND_MARGIN, x1 = ceil(high.x) + GROUND_MARGIN;
-    double z0 = floor(low.z) - GROUND_MARGIN, z1 = ceil(high.z) + GROUND_MARGIN;
-    for (double z = z0; z < z1; z += 1.0)
-        for (double x = x0; x < x1; x += 1.0) {
-            ff_vec3 corners[4] = {ff_v3(x, 0.0, z), ff_v3(x + 1.0, 0.0, z), ff_v3(x + 1.0, 0.0, z + 1.0),
-                                  ff_v3(x, 0.0, z + 1.0)};
-            ff_raster_ground(raster, camera, corners, 4, tile[(int)fabs(x + z) % 2]);
+    double side = ff_film_crowd_tile(recording);
+    int x0 = (int)floor((low.x - GROUND_MARGIN) / side), x1 = (int)ceil((high.x + GROUND_MARGIN) / side);
+    int z0 = (int)floor((low.z - GROUND_MARGIN) / side), z1 = (int)ceil((high.z + GROUND_MARGIN) / side);
+    for (int z = z0; z < z1; ++z)
+        for (int x = x0; x < x1; ++x) {
+            ff_vec3 corners[4] = {ff_v3(x, 0.0, z), ff_v3(x + 1, 0.0, z), ff_v3(x + 1, 0.0, z + 1),
+                                  ff_v3(x, 0.0, z + 1)};
+            for (int c = 0; c < 4; ++c)
+                corners[c] = ff_scale3(corners[c], side);
+            ff_raster_ground(raster, camera, corners, 4, tile[(x + z) & 1]);
         }
 }
 

@@ -7,6 +7,9 @@
 /* Whether everybody's paths lie in a strip that a wide picture suits. */
 bool ff_film_crowd_is_long(const ff_recording *recording);
 
+/* Side of the tiles on the ground, m. */
+double ff_film_crowd_tile(const ff_recording *recording);
+
 /* A camera that sees everybody present in a recorded pose, on pictures of width x height pixels. It looks the same way
  * at all times. */
 ff_camera ff_film_crowd_camera(const ff_recording *recording, uint32_t pose, int width, int height);

@@ -101,7 +101,7 @@ static void add_leaving(const writer *w, uint32_t agent, int hips)
 static void add_agent(writer *w, uint32_t agent)
 {
     char name[64];
-    int nodes[FF_FIGURE_MAX_JOINTS];
+    int nodes[FF_FIGURE_MAX_JOINTS] = {0};
     const ff_figure *figure = w->figure;
     snprintf(name, sizeof name, "agent %u", agent);
     int top = ff_glb_add_node(w->model, name, -1, ff_v3(0.0, 0.0, 0.0));

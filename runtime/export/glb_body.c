@@ -75,8 +75,8 @@ static ff_status add_vertices(ff_glb_model *model, const ff_body_mesh *mesh, ff_
     for (size_t i = 0; i < count; ++i) {
         memcpy(vectors[i], vertices[i].position, sizeof *vectors);
         memcpy(vectors[count + i], vertices[i].normal, sizeof *vectors);
-        memcpy(quads[i], vertices[i].joints, sizeof *quads);
-        memcpy(quads[count + i], vertices[i].weights, sizeof *quads);
+        memcpy(quads[i], vertices[i].joints, sizeof vertices[i].joints);
+        memcpy(quads[count + i], vertices[i].weights, sizeof vertices[i].weights);
     }
     out->positions = add_vectors(model, (const float(*)[3])vectors, count, true);
     out->normals = add_vectors(model, (const float(*)[3])(vectors + count), count, false);
@@ -207,14 +207,15 @@ static ff_status add_sheet(ff_glb_model *model, sheet *s, const char *name, ff_c
     return status;
 }
 
-static void add_tiles(sheet *s, ff_vec2 low, ff_vec2 high, double tile, int odd)
+/* Tiles of one colour between two corners given in tiles. */
+static void add_tiles(sheet *s, const int low[2], const int high[2], double tile, int odd)
 {
-    for (double z = low.a; z < high.a; z += tile)
-        for (double x = low.b; x < high.b; x += tile) {
-            int parity = (int)fabs(floor(x / tile + 0.5) + floor(z / tile + 0.5)) % 2;
-            if (parity != odd) continue;
-            const ff_vec3 corners[4] = {ff_v3(x, 0.0, z), ff_v3(x, 0.0, z + tile),
-                                        ff_v3(x + tile, 0.0, z + tile), ff_v3(x + tile, 0.0, z)};
+    for (int z = low[0]; z < high[0]; ++z)
+        for (int x = low[1]; x < high[1]; ++x) {
+            if (((x + z) & 1) != odd) continue;
+            const ff_vec3 corners[4] = {ff_v3(x * tile, 0.0, z * tile), ff_v3(x * tile, 0.0, (z + 1) * tile),
+                                        ff_v3((x + 1) * tile, 0.0, (z + 1) * tile),
+                                        ff_v3((x + 1) * tile, 0.0, z * tile)};
             add_piece(s, corners, ff_v3(0.0, 1.0, 0.0));
         }
 }
@@ -222,15 +223,13 @@ static void add_tiles(sheet *s, ff_vec2 low, ff_vec2 high, double tile, int odd)
 ff_status ff_glb_add_surroundings(ff_glb_model *model, const ff_scene *scene, ff_vec2 low, ff_vec2 high,
                                   ff_error *error)
 {
-    /* Tiles of 1 m; of 10 or more where there would be too many. */
-    double tile = 1.0;
-    while ((high.a - low.a) * (high.b - low.b) > 20000.0 * tile * tile)
-        tile *= 10.0;
-    low = ff_v2(floor(low.a / tile) * tile, floor(low.b / tile) * tile);
+    double tile = ff_ground_tile(high.a - low.a, high.b - low.b);
+    const int first[2] = {(int)floor(low.a / tile), (int)floor(low.b / tile)};
+    const int last[2] = {(int)ceil(high.a / tile), (int)ceil(high.b / tile)};
     static const ff_colour colours[2] = {{206, 204, 198}, {188, 187, 182}};
     for (int odd = 0; odd < 2; ++odd) {
         sheet tiles = {0};
-        add_tiles(&tiles, low, high, tile, odd);
+        add_tiles(&tiles, first, last, tile, odd);
         ff_status status = add_sheet(model, &tiles, "ground", colours[odd], 0, error);
         if (status != FF_OK) return status;
     }

@@ -31,3 +31,11 @@ ff_look ff_look_of(const ff_scene *scene, uint32_t agent)
     look.cover[FF_COVER_SHOES] = shoes[bits >> 6 & 1u];
     return look;
 }
+
+double ff_ground_tile(double width, double depth)
+{
+    double tile = 1.0;
+    while (width * depth > 20000.0 * tile * tile)
+        tile *= 10.0;
+    return tile;
+}

@@ -1,4 +1,5 @@
-/* look.h - what each agent wears, the same in every file, so that one can be followed from picture to picture. */
+/* look.h - what each agent wears and stands on, the same in every file, so that one can be followed from picture to
+ * picture. */
 #ifndef FF_LOOK_H
 #define FF_LOOK_H
 
@@ -12,5 +13,8 @@ typedef struct ff_look {
 
 /* Shirts tell groups apart (on the circle and in custom scenes: agents). */
 ff_look ff_look_of(const ff_scene *scene, uint32_t agent);
+
+/* Side of the tiles of a ground of so many metres: 1 m, or 10, 100 ... where there would be too many of them. */
+double ff_ground_tile(double width, double depth);
 
 #endif

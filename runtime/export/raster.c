@@ -75,7 +75,7 @@ void ff_raster_clear(ff_raster *raster, ff_colour top, ff_colour bottom)
 
 typedef struct corner {
     double x, y, nearness;
-    double colour[3];
+    double colour[3]; /* of no matter where only a shadow is cast */
 } corner;
 
 typedef enum fill { FILL_SHADED, FILL_FLAT, FILL_SHADOW } fill;
@@ -121,9 +121,8 @@ static bool to_corner(const ff_camera *camera, ff_vec3 position, corner *out)
 {
     double depth;
     ff_pixel p = ff_camera_project(camera, position, &depth);
-    out->x = p.x;
-    out->y = p.y;
-    out->nearness = camera->perspective ? 1.0 / ff_max(depth, NEAREST) : -depth;
+    *out =
+        (corner){.x = p.x, .y = p.y, .nearness = camera->perspective ? 1.0 / ff_max(depth, NEAREST) : -depth};
     return !camera->perspective || depth > NEAREST;
 }
 

@@ -56,18 +56,22 @@ static map fit(const ff_scene *scene, const ff_recording *recording)
 
 static void draw_grid(ff_picture *picture, const map *m)
 {
-    double every = (m->high.a - m->low.a) > 40.0 ? 5.0 : 1.0;
-    for (double a = ceil(m->low.a / every) * every; a <= m->high.a; a += every)
-        ff_picture_line(picture, to_pixel(m, ff_v2(a, m->low.b)), to_pixel(m, ff_v2(a, m->high.b)), 1.0,
-                        faint);
-    for (double b = ceil(m->low.b / every) * every; b <= m->high.b; b += every)
-        ff_picture_line(picture, to_pixel(m, ff_v2(m->low.a, b)), to_pixel(m, ff_v2(m->high.a, b)), 1.0,
-                        faint);
+    double extent = ff_max(m->high.a - m->low.a, m->high.b - m->low.b), every = 1.0;
+    while (extent > 45.0 * every)
+        every *= 5.0;
+    for (int k = (int)ceil(m->low.a / every); k * every <= m->high.a; ++k)
+        ff_picture_line(picture, to_pixel(m, ff_v2(k * every, m->low.b)),
+                        to_pixel(m, ff_v2(k * every, m->high.b)), 1.0, faint);
+    for (int k = (int)ceil(m->low.b / every); k * every <= m->high.b; ++k)
+        ff_picture_line(picture, to_pixel(m, ff_v2(m->low.a, k * every)),
+                        to_pixel(m, ff_v2(m->high.a, k * every)), 1.0, faint);
 }
 
 static void draw_scale_bar(ff_picture *picture, const map *m, int width, int height)
 {
-    double metres = m->scale > 80.0 ? 1.0 : (m->scale > 30.0 ? 2.0 : 5.0);
+    double metres = 1.0; /* 1, 2, 5, 10 ...: the first that is long enough to see */
+    for (int k = 0; metres * m->scale < 60.0; ++k)
+        metres *= k % 3 == 1 ? 2.5 : 2.0;
     double right = width - MARGIN, y = height - 0.5 * FOOT, left = right - metres * m->scale;
     char text[32];
     snprintf(text, sizeof text, "%.0f m", metres);

@@ -53,6 +53,14 @@ walls_are_walked_round() {
     # nobody's root within the wall's reach: |x| < 1 where z is close to 0
     awk -F, 'NR > 1 && $4 < 0.2 && $4 > -0.2 && $3 < 1 && $3 > -1 { print; bad = 1 } END { exit bad }' "$work/$scene/crowd.csv"
 }
+the_example_of_the_readme_runs() {
+    awk '/^```/ && inside { exit } inside { print } /^```json$/ { inside = 1 }' runtime/scenes/README.md >"$work/readme.json"
+    run 0 "$crowd" run "$work/readme.json" --pack "$builtin" --out "$work/readme" --seconds 1 --quiet && silent err
+}
+a_scene_of_kilometres_is_drawn() {
+    printf '{"kind": "custom", "agents": [{"position": [0, 0], "goal": [0, 4000]}, {"position": [9000, 0], "goal": [0, 0]}]}' >"$work/far.json"
+    run 0 "$crowd" run "$work/far.json" --pack "$builtin" --out "$work/far" --seconds 1 --quiet && silent err
+}
 another_number_of_agents_needs_a_scene_that_makes_them() {
     run 1 "$crowd" run "$work/wall.json" --pack "$builtin" --out "$work/never" --agents 5 --quiet && silent out &&
         says err "$work/wall.json: --agents" && [ "$(wc -l <"$work/err")" -eq 1 ] && [ ! -e "$work/never" ]
@@ -78,6 +86,8 @@ test_that "the four-way crossflow runs" scene_runs four-way 100
 test_that "a circle arrives and the run ends" a_circle_arrives_and_the_run_ends
 test_that "people leave where the scene says so" people_leave_where_the_scene_says_so
 test_that "walls are walked round" walls_are_walked_round
+test_that "the example of runtime/scenes/README.md runs" the_example_of_the_readme_runs
+test_that "a scene of kilometres is drawn" a_scene_of_kilometres_is_drawn
 test_that "another number of agents needs a scene that makes them" another_number_of_agents_needs_a_scene_that_makes_them
 test_that "a crowd that does not fit is refused" a_crowd_that_does_not_fit_is_refused
 test_that "an output folder that cannot be made is an error" an_output_folder_that_cannot_be_made_is_an_error

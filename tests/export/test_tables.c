@@ -75,7 +75,8 @@ static void test_crowd_csv_has_one_row_per_agent_ten_times_a_second(void **state
                                 &v[4], &v[5], &v[6], &v[7], &v[8], &v[9]),
                          10);
         const ff_track *track = ff_recording_track(&recording, (uint32_t)(v[0] * 30.0 + 0.5), (uint32_t)v[1]);
-        FF_ASSERT_NEAR(v[0], 0.1 * (rows / 4), 1e-3);
+        int tick = rows / 4;
+        FF_ASSERT_NEAR(v[0], 0.1 * tick, 1e-3);
         FF_ASSERT_NEAR(v[1], rows % 4, 0.0);
         FF_ASSERT_NEAR(v[2], track->position.b, 1e-4);
         FF_ASSERT_NEAR(v[3], track->position.a, 1e-4);

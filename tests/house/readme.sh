@@ -50,7 +50,7 @@ the_short_program_is_the_example() {
     diff "$work/program.c" runtime/examples/walk.c
 }
 
-for readme in README.md mocap/README.md preprocess/README.md runtime/README.md tests/README.md scripts/README.md; do
+for readme in README.md mocap/README.md preprocess/README.md runtime/README.md runtime/export/README.md runtime/scenes/README.md tests/README.md scripts/README.md; do
     test_that "the commands of $readme work" commands_work "$readme"
     test_that "the other commands of $readme exist" commands_exist "$readme"
     test_that "the links of $readme lead somewhere" links_lead_somewhere "$readme"
