@@ -226,7 +226,8 @@ static void colliders_follow_the_body_at_10_hz(void **state)
             assert_true(at[FF_COLLIDER_HAND_L].y > at[FF_COLLIDER_FOOT_L].y);
             assert_true(at[FF_COLLIDER_FOOT_L].b > at[FF_COLLIDER_FOOT_R].b);
             for (int k = 0; k < FF_COLLIDER_COUNT; ++k)
-                FF_ASSERT_BELOW(hypot(at[k].a - root->a, at[k].b - root->b), a->record.coarse_radius);
+                FF_ASSERT_BELOW(ff_length2(ff_v2((double)(at[k].a - root->a), (double)(at[k].b - root->b))),
+                                a->record.coarse_radius);
         }
         FF_ASSERT_NEAR(a->colliders[0][FF_COLLIDER_ROOT].a, a->record.root_start[0], 1e-6);
         FF_ASSERT_NEAR(a->colliders[n - 1][FF_COLLIDER_ROOT].b, a->record.root_end[1], 1e-6);
