@@ -154,8 +154,13 @@ void ff_build_find_subjects(ff_build_clip *clips, int count)
     int subjects = 0;
     for (int i = 0; i < count; ++i) {
         clips[i].subject = -1;
-        for (int k = 0; k < i && clips[i].subject < 0; ++k)
+        /* compared with the first clip of each subject, the latest subject first: files of one person lie together */
+        for (int k = i - 1, looked_at = subjects; k >= 0 && clips[i].subject < 0; --k) {
+            if (clips[k].subject != looked_at - 1 || !clips[k].first_of_subject) continue;
+            --looked_at;
             if (same_skeleton(&clips[i].clip, &clips[k].clip)) clips[i].subject = clips[k].subject;
+        }
+        clips[i].first_of_subject = clips[i].subject < 0;
         if (clips[i].subject < 0) clips[i].subject = subjects++;
     }
 }

@@ -17,6 +17,7 @@ typedef struct ff_build_clip {
     int first_frame; /* of the file: frames before it were trimmed */
     uint64_t hash;   /* XXH64 of the file's bytes; of the poses of a built-in clip */
     int subject;     /* clips of one skeleton have the same number */
+    bool first_of_subject;
 
     ff_status status; /* of the stages so far */
     ff_error error;

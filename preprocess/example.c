@@ -55,37 +55,6 @@ void ff_example_pose(const ff_rig *rig, const ff_example *example, int frame, ff
     ff_rig_pose(rig, ff_v3(hips.y, hips.z, hips.x), world, positions);
 }
 
-/* ---------------------------------------------------------------------------------------------------- head */
-
-#define GAZE (-5.0 * FF_DEG) /* below the horizon, walking on level ground */
-
-static ff_quat head_rotation(const ff_example *example, int frame)
-{
-    const ff_quat *local = example->rotations + (size_t)frame * FF_ROLE_JOINT_COUNT;
-    ff_quat world = FF_QUAT_IDENTITY;
-    for (int r = FF_ROLE_HEAD; r >= 0; r = (int)ff_role_parent((ff_role)r))
-        world = ff_quat_mul(local[r], world);
-    return world;
-}
-
-void ff_example_level_head(ff_example *example)
-{
-    ff_quat mean = {0.0, 0.0, 0.0, 0.0};
-    for (int k = 0; k < example->frame_count; ++k) {
-        ff_quat q = head_rotation(example, k);
-        double sign = ff_quat_dot(q, mean) < 0.0 ? -1.0 : 1.0;
-        mean = (ff_quat){mean.x + sign * q.x, mean.y + sign * q.y, mean.z + sign * q.z, mean.w + sign * q.w};
-    }
-    mean = ff_quat_unit(mean);
-    ff_quat wanted =
-        ff_quat_mul(ff_quat_yaw(ff_quat_heading(mean)), ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -GAZE));
-    ff_quat turn = ff_quat_mul(ff_quat_conj(mean), wanted);
-    for (int k = 0; k < example->frame_count; ++k) {
-        ff_quat *head = &example->rotations[(size_t)k * FF_ROLE_JOINT_COUNT + FF_ROLE_HEAD];
-        *head = ff_quat_unit(ff_quat_mul(*head, turn));
-    }
-}
-
 /* ---------------------------------------------------------------------------------------------------- feet */
 
 static ff_pack_foot foot_of_pose(const ff_vec3 *at, int foot)

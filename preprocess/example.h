@@ -35,6 +35,10 @@ void ff_example_sample(const ff_example *example, double phase, ff_vec3 *hips, f
  * heads says how they were calibrated (gait facts), not where people looked. */
 void ff_example_level_head(ff_example *example);
 
+/* Take the shaking of markers out: every joint and the hips alike, so that a standing foot, which moves evenly in the
+ * root's frame, still stands. */
+ff_status ff_example_smooth(ff_example *example, ff_error *error);
+
 /* Left and right exchanged, and re-phased so that the cycle again starts with the left contact. */
 ff_status ff_example_mirror(const ff_rig *rig, const ff_example *example, ff_example *out, ff_error *error);
 

@@ -13,7 +13,9 @@
 #define SEAM_OTHER 0.08
 #define WANDER 0.2
 #define SEAM_IDLE 0.015
-#define RESTLESS 0.03    /* m */
+#define RESTLESS 0.03 /* m */
+#define LOCK_WALK                                                                                            \
+    0.4 /* of the cycle; people stand on a foot for 0.6 of it, and a shorter lock comes of a capture fault */
 #define CROSSED 0.08     /* m */
 #define WANDER_COST 0.15 /* m per rad */
 #define KNEE_SOFT (6.0 * FF_DEG)
@@ -84,6 +86,17 @@ static double restlessness(const ff_rig *rig, const ff_example *e)
     return sum / FF_BODY_COUNT;
 }
 
+/* The shorter of the stretches in which a foot stands still, as a share of the cycle. */
+static double shortest_lock(const ff_example *e)
+{
+    double shortest = 1.0;
+    for (int foot = 0; foot < 2; ++foot) {
+        double length = (double)e->record.lock[foot][1] - (double)e->record.lock[foot][0];
+        shortest = ff_min(shortest, length < 0.0 ? length + 1.0 : length);
+    }
+    return shortest;
+}
+
 static bool is_usable(const ff_rig *rig, const ff_example *e)
 {
     double v = ff_length2(ff_v2((double)e->record.v_forward, (double)e->record.v_left)),
@@ -92,6 +105,7 @@ static bool is_usable(const ff_rig *rig, const ff_example *e)
     if (e->record.flags & FF_EXAMPLE_IDLE) return seam < SEAM_IDLE && restlessness(rig, e) < RESTLESS;
     if (seam > (is_straight(e) && e->record.gait == FF_GAIT_WALK ? SEAM_STRAIGHT : SEAM_OTHER)) return false;
     if (e->wander > WANDER || legs_cross(e)) return false;
+    if (e->record.gait == FF_GAIT_WALK && shortest_lock(e) < LOCK_WALK) return false;
     if (e->record.gait == FF_GAIT_RUN) return e->record.v_forward > 1.5f;
     return v < 2.4 && fabs((double)e->record.turn_rate) < 2.6;
 }
@@ -130,8 +144,8 @@ static double cost_of(const ff_example *e)
            (is_straight(e) ? 0.0 : TURN_COST);
 }
 
-/* Take candidates in order of cost, each one that is spacing away from all taken before (a stranger half as much
- * again). chosen receives their indices; subject < 0 = everybody's. */
+/* Take candidates in order of cost, each one that is spacing away from all taken before (a stranger a third
+ * more). chosen receives their indices; subject < 0 = everybody's. */
 static int choose(const candidate *list, int count, int subject, uint32_t gait, double spacing, int limit,
                   int *chosen)
 {
@@ -144,7 +158,7 @@ static int choose(const candidate *list, int count, int subject, uint32_t gait, 
         bool apart = true;
         for (int k = 0; k < taken && apart; ++k)
             apart = distance(point_of(list[i].example), point_of(list[chosen[k]].example)) >=
-                    (list[i].cost >= STRANGER_COST ? 1.5 : 1.0) * spacing;
+                    (list[i].cost >= STRANGER_COST ? 1.3 : 1.0) * spacing;
         if (apart) chosen[taken++] = i;
     }
     return taken;

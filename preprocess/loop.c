@@ -169,5 +169,7 @@ ff_status ff_loop_close(const ff_rig *rig, const ff_motion *motion, const ff_str
     record->seam = (float)missing.mean;
     out->first_frame = c->start;
     out->wander = wander(motion, c, root);
-    return FF_OK;
+    status = ff_example_smooth(out, error);
+    if (status != FF_OK) ff_example_free(out);
+    return status;
 }
