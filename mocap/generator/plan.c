@@ -29,6 +29,7 @@ static double slope_at(const double *x, const double *y, int count, int i)
 
 double ff_monotone(const double *x, const double *y, int count, double at)
 {
+    if (count < 1) return 0.0;
     if (at <= x[0]) return y[0];
     if (at >= x[count - 1]) return y[count - 1];
     int i = 0;
@@ -45,7 +46,7 @@ ff_gesture ff_plan_gesture(const ff_plan *plan, double t)
     int n = plan->gesture_count, i = 0;
     if (n < 2) return now;
     const ff_gesture *g = plan->gestures;
-    double x[FF_PLAN_MAX_KNOTS], bend[FF_PLAN_MAX_KNOTS], arms[FF_PLAN_MAX_KNOTS];
+    double x[FF_PLAN_MAX_KNOTS] = {0}, bend[FF_PLAN_MAX_KNOTS] = {0}, arms[FF_PLAN_MAX_KNOTS] = {0};
     for (int k = 0; k < n; ++k) {
         x[k] = g[k].t;
         bend[k] = g[k].bend;
@@ -63,7 +64,7 @@ ff_gesture ff_plan_gesture(const ff_plan *plan, double t)
 
 static ff_rate_knot rates_at(const ff_plan *plan, double t)
 {
-    double x[FF_PLAN_MAX_KNOTS], y[3][FF_PLAN_MAX_KNOTS];
+    double x[FF_PLAN_MAX_KNOTS] = {0}, y[3][FF_PLAN_MAX_KNOTS] = {{0}};
     for (int i = 0; i < plan->knot_count; ++i) {
         const ff_rate_knot *k = &plan->knots[i];
         x[i] = k->t;
@@ -129,20 +130,16 @@ double ff_plan_phase(const ff_plan *plan, double t)
 {
     const ff_contact *c = plan->contacts;
     int n = plan->contact_count;
-    double x[FF_PLAN_MAX_CONTACTS], y[FF_PLAN_MAX_CONTACTS];
     double first = c[0].foot == 0 ? 0.0 : 0.5;
     if (t <= c[0].t || n < 3) return first + 0.5 * (t - c[0].t) / (c[1].t - c[0].t);
-    if (t >= c[n - 1].t) return first + 0.5 * (n - 1 + (t - c[n - 1].t) / (c[n - 1].t - c[n - 2].t));
-    for (int i = 0; i < n; ++i) {
-        x[i] = c[i].t;
-        y[i] = first + 0.5 * i;
-    }
-    /* end slopes as inside: extend by one point on either side of the interval in question */
     int i = 0;
-    while (t > x[i + 1])
+    while (i < n - 2 && t > c[i + 1].t)
         ++i;
-    if (i == 0 || i == n - 2) return y[i] + 0.5 * (t - x[i]) / (x[i + 1] - x[i]);
-    return ff_monotone(x, y, n, t);
+    double linear = first + 0.5 * (i + (t - c[i].t) / (c[i + 1].t - c[i].t));
+    if (i == 0 || i == n - 2) return linear;
+    const double x[4] = {c[i - 1].t, c[i].t, c[i + 1].t, c[i + 2].t};
+    const double y[4] = {-0.5, 0.0, 0.5, 1.0};
+    return first + 0.5 * i + ff_monotone(x, y, 4, t);
 }
 
 /* --------------------------------------------------------------------------------------------- footprints */
