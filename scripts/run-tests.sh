@@ -54,7 +54,10 @@ run_one() { # BUILD:PROGRAM; its counts go beside its log
         }' "$log" >"$log.counts"
     read -r passed failed skipped <"$log.counts"
     if [ "$failed" -ne 0 ]; then
-        { echo "FAILED: $program in $FF_BUILD (exit status $status)"; tail -60 "$log"; }
+        echo "FAILED: $program in $FF_BUILD (exit status $status)"
+        # What went well says nothing here.
+        awk '/^\[       OK \]/ { run = ""; next } /^\[ RUN / { run = $0; next }
+            { if (run) print run; run = ""; print } END { if (run) print run }' "$log" | tail -60
     else
         grep '^SKIPPED' "$log" | sed "s|^SKIPPED[: ]*|SKIPPED: $program: |"
         echo "ok: $program ($passed)"
