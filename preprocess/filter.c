@@ -27,7 +27,7 @@ static double filtered(biquad *q, double in)
 static void both_ways(biquad *q, double *x, int count, ptrdiff_t stride)
 {
     enum { PAD = 64 };
-    double tail[PAD];
+    double tail[PAD] = {0.0};
     int pad = count - 1 < PAD ? count - 1 : PAD;
     double first = x[0], last = x[(count - 1) * stride];
     for (int k = 0; k < pad; ++k)
@@ -48,12 +48,11 @@ static void both_ways(biquad *q, double *x, int count, ptrdiff_t stride)
 
 void ff_filter_low_pass(double *values, int count, int stride, double rate, double cutoff)
 {
-    /* Two passes lower the -3 dB point of each by (sqrt(2) - 1)^(1/4) (Winter, Biomechanics, section 3.4.4.2). */
-    double each = cutoff / 0.8022;
-    if (count < 4 || each >= 0.45 * rate) return;
+    if (count < 4 || cutoff >= 0.36 * rate) return;
     double s, c;
-    ff_sincos(FF_PI * each / rate, &s, &c);
-    double k = s / c, g = 1.0 / (1.0 + sqrt(2.0) * k + k * k);
+    ff_sincos(FF_PI * cutoff / rate, &s, &c);
+    /* Two passes lower the -3 dB point of each by (sqrt(2) - 1)^(1/4) (Winter, Biomechanics, section 3.4.4.2). */
+    double k = s / c / 0.8022, g = 1.0 / (1.0 + sqrt(2.0) * k + k * k);
     biquad q = {.b = {k * k * g, 2.0 * k * k * g, k * k * g},
                 .a = {1.0, 2.0 * (k * k - 1.0) * g, (1.0 - sqrt(2.0) * k + k * k) * g}};
     both_ways(&q, values, count, stride);

@@ -111,7 +111,7 @@ ff_status ff_report_write(const ff_pack *pack, const char *pack_name, const char
     json_t *meta = pack->meta_size ? json_loadb(pack->meta, pack->meta_size, 0, NULL) : NULL;
     char path[1024];
     ff_status status = ff_folder_create(folder, error);
-    if (status == FF_OK && (size_t)snprintf(path, sizeof path, "%s/report.html", folder) >= sizeof path)
+    if (status == FF_OK && (size_t)snprintf(path, sizeof path, "%s/index.html", folder) >= sizeof path)
         status = ff_fail(error, FF_ERR_RANGE, "the folder's name is too long: %.60s...", folder);
     if (status == FF_OK) {
         write_head(&page, pack_name);
@@ -138,17 +138,17 @@ static int report(const char *path, const char *folder)
     }
     ff_pack_close(pack);
     if (status != FF_OK) return ff_command_fail(PROGRAM, &error);
-    printf("%s/report.html\n", folder);
+    printf("%s/index.html\n", folder);
     return FF_EXIT_OK;
 }
 
 int ff_report_command(int argc, char **argv)
 {
-    const char *folder = "report";
+    const char *folder = NULL;
     ff_option options[] = {{.name = "--out",
                             .alias = "-o",
                             .value_name = "DIR",
-                            .help = "folder for report.html (default: report)",
+                            .help = "folder for index.html, made if missing (needed)",
                             .text = &folder},
                            {0}};
     ff_command command = {
@@ -171,7 +171,9 @@ int ff_report_command(int argc, char **argv)
         return ff_command_fail(PROGRAM, &error);
     }
     int result = ff_command_parse(&command, argc, argv, &operands);
-    if (result < 0) result = report(operands.items[0], folder);
+    if (result < 0)
+        result = folder ? report(operands.items[0], folder)
+                        : ff_command_misuse(&command, "--out DIR (-o) is missing");
     free(operands.items);
     return result;
 }

@@ -6,7 +6,7 @@
 
 #include "runtime/core/pack.h"
 
-/* Write folder/report.html, all or nothing; creates the folder. */
+/* Write folder/index.html, all or nothing; creates the folder. */
 ff_status ff_report_write(const ff_pack *pack, const char *pack_name, const char *folder, ff_error *error);
 
 /* footfall-pack report ...; argv after the command's name. Returns the exit status. */

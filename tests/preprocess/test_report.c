@@ -35,7 +35,7 @@ static int page_make(void **state)
     char folder[] = "/tmp/ff-report-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     FF_ASSERT_OK(ff_report_write(p.pack, "a & b <built-in>", folder, &error), error);
-    snprintf(path, sizeof path, "%s/report.html", folder);
+    snprintf(path, sizeof path, "%s/index.html", folder);
     ff_file file;
     FF_ASSERT_OK(ff_file_map(path, &file, &error), error);
     p.text = calloc(1, file.size + 1);
