@@ -150,10 +150,109 @@ static void steps_begin_on_one_foot_and_end_as_the_other_stands(void **state)
     assert_true(good >= 0.97 * steps);
 }
 
+/* One clip all the way, on a rig of its own proportions. */
+typedef struct walk {
+    ff_clip clip;
+    ff_plants plants;
+    ff_rig rig;
+    ff_motion motion;
+    ff_actions actions;
+} walk;
+
+static walk walk_cut(const char *shared, const char *name)
+{
+    walk w;
+    ff_error error;
+    char path[512];
+    ff_load_options options = ff_load_options_default();
+    snprintf(path, sizeof path, "%s/data/cmu/%.*s/%s.amc", shared, (int)strcspn(name, "_"), name, name);
+    FF_ASSERT_OK(ff_clip_load(path, &options, &w.clip, &error), error);
+    const ff_clip *clip = &w.clip;
+    FF_ASSERT_OK(ff_plants_find(clip, &w.plants, &error), error);
+    FF_ASSERT_OK(ff_rig_from_clips(&clip, 1, &w.rig, &error), error);
+    FF_ASSERT_OK(ff_motion_from_clip(&w.rig, clip, &w.plants, &w.motion, &error), error);
+    FF_ASSERT_OK(ff_actions_cut(&w.rig, &w.motion, &w.plants, -1, &w.actions, &error), error);
+    return w;
+}
+
+static void walk_free(walk *w)
+{
+    ff_actions_free(&w->actions);
+    ff_motion_free(&w->motion);
+    ff_plants_free(&w->plants);
+    ff_clip_free(&w->clip);
+}
+
+/* Algorithms H: full plants of 35_01 near frames 157 left, 222 right and 289 left of the uncut clip; the file begins
+ * with frame 135, counted from 1. */
+static void the_known_walk_is_cut_where_it_is_known_to_be(void **state)
+{
+    (void)state;
+    const char *shared = ff_shared_folder();
+    if (!shared) {
+        print_message(
+            "SKIPPED the_known_walk_is_cut_where_it_is_known_to_be: the shared folder is not there\n");
+        skip();
+    }
+    walk w = walk_cut(shared, "35_01");
+    assert_int_equal(w.clip.first_frame, 135);
+    assert_true(w.actions.count >= 2);
+    static const int full[3] = {157 - 134, 222 - 134, 289 - 134};
+    for (int i = 0; i < 2; ++i) {
+        const ff_action *a = &w.actions.items[i];
+        assert_int_equal(a->record.support, i % 2 ? FF_RIGHT : FF_LEFT);
+        FF_ASSERT_NEAR(a->first_frame, full[i], 5);
+        FF_ASSERT_NEAR(a->last_frame, full[i + 1], 5);
+        FF_ASSERT_NEAR(a->record.alpha, 0.0, 10.0 * FF_DEG);
+        FF_ASSERT_NEAR(a->record.theta, 0.0, 10.0 * FF_DEG);
+    }
+    walk_free(&w);
+}
+
+/* steps.csv: mean ball-to-ball steps along the way, measured by other means (straight, level walks). */
+static void steps_are_as_long_as_others_measured_them(void **state)
+{
+    (void)state;
+    const char *shared = ff_shared_folder();
+    if (!shared) {
+        print_message("SKIPPED steps_are_as_long_as_others_measured_them: the shared folder is not there\n");
+        skip();
+    }
+    char path[512], row[1024];
+    snprintf(path, sizeof path, "%s/data/labels/steps.csv", shared);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    int clips = 0;
+    while (fgets(row, sizeof row, file)) {
+        char name[16], tag[32];
+        double length = 0.0, spread = 0.0;
+        /* clip,n_frames,fps,tag,11 columns,...: step_len_m is the 17th, its deviation the 18th. */
+        const char *at = row;
+        for (int k = 0; k < 16 && at; ++k)
+            at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL;
+        if (!at || sscanf(row, "%15[^,],%*[^,],%*[^,],%31[^,]", name, tag) != 2 || strcmp(tag, "walk") != 0)
+            continue;
+        if (sscanf(at, "%lf,%lf", &length, &spread) != 2) continue;
+        walk w = walk_cut(shared, name);
+        double sum = 0.0;
+        for (int i = 0; i < w.actions.count; ++i)
+            sum += (double)w.actions.items[i].record.step_length / w.motion.scale;
+        if (w.actions.count >= 2) {
+            FF_ASSERT_NEAR(sum / w.actions.count, length, 0.03 + spread);
+            ++clips;
+        }
+        walk_free(&w);
+    }
+    fclose(file);
+    assert_true(clips >= 20);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steps_begin_on_one_foot_and_end_as_the_other_stands),
+        cmocka_unit_test(the_known_walk_is_cut_where_it_is_known_to_be),
+        cmocka_unit_test(steps_are_as_long_as_others_measured_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
