@@ -292,8 +292,10 @@ static ff_status read_lines(reader *r)
     } else {
         status = end_frame(r);
     }
-    if (status == FF_OK) ff_clip_trim(r->clip, r->capacity);
-    return status;
+    if (status != FF_OK) return status;
+    ff_clip_trim(r->clip, r->capacity);
+    r->clip->rest_frames = ff_clip_count_rest_frames(r->clip); /* 09_10 begins with four frames of zeros */
+    return FF_OK;
 }
 
 ff_status ff_amc_parse(const ff_asf *asf, const char *data, size_t size, const char *name,

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #define LEVEL_ENOUGH 0.001 /* m */
+#define TOE_BEND 1.2       /* rad */
 
 static int ball_of(int foot)
 {
@@ -60,6 +61,27 @@ static void raise_foot(const ff_rig *rig, ff_motion *motion, int frame, int foot
     local[ankle] = ff_quat_mul(ff_quat_conj(leg.shank), world[ankle]);
 }
 
+/* Bend the toes up until their tip is no lower than low: while the heel rises they stay flat on the floor, which
+ * captured toe joints do not show well enough. */
+static void keep_toes_up(const ff_rig *rig, ff_motion *motion, int frame, int foot, double low)
+{
+    ff_vec3 at[FF_BODY_COUNT];
+    ff_quat world[FF_ROLE_JOINT_COUNT], *local = motion->rotations + (size_t)frame * FF_ROLE_JOINT_COUNT;
+    int ball = ball_of(foot), tip = foot ? FF_ROLE_TOE_R : FF_ROLE_TOE_L;
+    ff_motion_pose(rig, motion, frame, at, world);
+    double length = ff_length3(rig->offset[tip]);
+    if (at[tip].y >= low || length < 0.01) return;
+    /* Toes bent up by phi point along (0, sin phi, cos phi) of the foot; the sine of their slope is
+     * up sin phi + ahead cos phi. */
+    double up = ff_quat_rotate(world[ball - 1], ff_v3(0.0, 1.0, 0.0)).y;
+    double ahead = ff_quat_rotate(world[ball - 1], ff_v3(0.0, 0.0, 1.0)).y;
+    double size = sqrt(up * up + ahead * ahead), slope = (low - at[ball].y) / length;
+    if (up <= 0.0) return;
+    double sine = ff_clamp(slope / size, -1.0, 1.0);
+    double bend = ff_atan2(sine, sqrt(1.0 - sine * sine)) - ff_atan2(ahead, up);
+    local[ball] = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -ff_clamp(bend, -TOE_BEND, TOE_BEND));
+}
+
 ff_status ff_motion_stand(const ff_rig *rig, ff_motion *motion, const ff_plants *plants, ff_error *error)
 {
     size_t n = (size_t)motion->frame_count;
@@ -78,9 +100,10 @@ ff_status ff_motion_stand(const ff_rig *rig, ff_motion *motion, const ff_plants 
         0.5 * (height[1] - height[0]); /* what the left foot still has to go up, the right one down */
     for (int k = 0; k < motion->frame_count; ++k) {
         motion->hips[k].z += rise;
-        if (fabs(apart) < LEVEL_ENOUGH) continue;
-        raise_foot(rig, motion, k, FF_LEFT, apart);
-        raise_foot(rig, motion, k, FF_RIGHT, -apart);
+        for (int foot = 0; foot < 2; ++foot) {
+            if (fabs(apart) >= LEVEL_ENOUGH) raise_foot(rig, motion, k, foot, foot ? -apart : apart);
+            keep_toes_up(rig, motion, k, foot, rest[FF_ROLE_TOE_L].y);
+        }
     }
     return FF_OK;
 }
