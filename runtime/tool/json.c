@@ -21,6 +21,21 @@ static ff_status refuse_syntax(const ff_json *json, const json_error_t *found, f
     return ff_fail_at(error, FF_ERR_PARSE, json->path, line, column, "not valid JSON: %s", found->text);
 }
 
+/* jansson takes a zero byte after a number for space, but the search for places would take it for the end. */
+static ff_status refuse_zero(const ff_json *json, ff_error *error)
+{
+    const char *zero = memchr(json->text, '\0', json->size), *line_start = json->text;
+    if (!zero) return FF_OK;
+    uint32_t line = 1;
+    for (const char *at = json->text; at < zero; ++at) {
+        if (*at != '\n') continue;
+        ++line;
+        line_start = at + 1;
+    }
+    return ff_fail_at(error, FF_ERR_PARSE, json->path, line, (uint32_t)(zero - line_start) + 1,
+                      "not valid JSON: a zero byte; is this a text file?");
+}
+
 ff_status ff_json_parse(const char *text, size_t size, const char *name, ff_json *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
@@ -34,7 +49,11 @@ ff_status ff_json_parse(const char *text, size_t size, const char *name, ff_json
     out->size = size;
 
     json_error_t found;
-    ff_status status = FF_OK;
+    ff_status status = refuse_zero(out, error);
+    if (status != FF_OK) {
+        ff_json_free(out);
+        return status;
+    }
     out->root = json_loadb(out->text, size, JSON_REJECT_DUPLICATES, &found);
     if (!out->root) {
         status = refuse_syntax(out, &found, error);

@@ -175,11 +175,52 @@ static void test_hips_and_rotations_are_those_recorded(void **state)
     assert_int_equal(places, 6);
 }
 
+/* A reader of the file alone: where a node is in the rest pose, going down from the top of the scene. */
+static bool find_rest(const document *d, json_int_t from, json_int_t wanted, ff_vec3 at, ff_vec3 *out)
+{
+    const json_t *node = json_array_get(list(d, "nodes"), (size_t)from);
+    const json_t *translation = json_object_get(node, "translation"),
+                 *children = json_object_get(node, "children");
+    if (translation)
+        at = ff_add3(at, ff_v3(json_number_value(json_array_get(translation, 0)),
+                               json_number_value(json_array_get(translation, 1)),
+                               json_number_value(json_array_get(translation, 2))));
+    *out = at;
+    if (from == wanted) return true;
+    for (size_t i = 0; i < json_array_size(children); ++i)
+        if (find_rest(d, json_integer_value(json_array_get(children, i)), wanted, at, out)) return true;
+    return false;
+}
+
+static void test_bind_matrices_undo_the_rest_pose_of_every_skeleton(void **state)
+{
+    const document *d = *state;
+    const json_t *roots = json_object_get(json_array_get(list(d, "scenes"), 0), "nodes");
+    for (size_t s = 0; s < 6; ++s) {
+        const json_t *skin = json_array_get(list(d, "skins"), s), *joints = json_object_get(skin, "joints");
+        const float *binds = accessor_data(d, integer(skin, "inverseBindMatrices"));
+        for (size_t j = 0; j < FF_JOINT_COUNT; ++j) {
+            json_int_t node = json_integer_value(json_array_get(joints, j));
+            ff_vec3 rest = {0};
+            bool found = false;
+            for (size_t r = 0; r < json_array_size(roots) && !found; ++r)
+                found =
+                    find_rest(d, json_integer_value(json_array_get(roots, r)), node, ff_v3(0, 0, 0), &rest);
+            assert_true(found);
+            FF_ASSERT_NEAR((double)binds[16 * j + 12], -rest.x, 1e-6);
+            FF_ASSERT_NEAR((double)binds[16 * j + 13], -rest.y, 1e-6);
+            FF_ASSERT_NEAR((double)binds[16 * j + 14], -rest.z, 1e-6);
+            FF_ASSERT_NEAR((double)binds[16 * j + 15], 1.0, 0.0);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_accessor_lies_inside_its_view_and_every_view_inside_the_file),
         cmocka_unit_test(test_agents_share_vertices_and_bind_matrices),
+        cmocka_unit_test(test_bind_matrices_undo_the_rest_pose_of_every_skeleton),
         cmocka_unit_test(test_only_joints_that_move_have_channels),
         cmocka_unit_test(test_hips_and_rotations_are_those_recorded),
     };

@@ -73,6 +73,19 @@ static void files_that_are_not_json_are_refused_with_their_place(void **state)
     }
 }
 
+static void a_zero_byte_is_refused_with_its_place(void **state)
+{
+    (void)state;
+    static const char text[] = "{\n \"a\": [1.0\0], \"b\": 2}";
+    ff_json json;
+    ff_error error;
+    assert_int_equal(ff_json_parse(text, sizeof text - 1, "x.json", &json, &error), FF_ERR_PARSE);
+    assert_int_equal(error.line, 2);
+    assert_int_equal(error.column, 11);
+    assert_non_null(strstr(error.message, "zero byte"));
+    assert_null(json.text);
+}
+
 static void a_wrong_value_is_named_at_its_own_line_and_column(void **state)
 {
     (void)state;
@@ -162,6 +175,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(members_are_read_and_absent_ones_keep_their_default),
         cmocka_unit_test(files_that_are_not_json_are_refused_with_their_place),
+        cmocka_unit_test(a_zero_byte_is_refused_with_its_place),
         cmocka_unit_test(a_wrong_value_is_named_at_its_own_line_and_column),
         cmocka_unit_test(an_unknown_key_is_refused_and_the_nearest_known_one_named),
         cmocka_unit_test(a_file_that_is_missing_or_a_folder_is_named),
