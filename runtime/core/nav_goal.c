@@ -17,6 +17,7 @@
 #define DETOUR_MAX 2.0   /* rad */
 
 #define WAY_GAP 0.5    /* m between two people, from which one who stands makes way */
+#define WAY_AHEAD 1.0  /* s */
 #define WAY_SPEED 0.5  /* m/s */
 #define WAY_LEAST 0.05 /* m/s: who wants less than that needs no way */
 
@@ -77,9 +78,10 @@ static void stand_or_go(double distance, double speed, double step, const ff_tra
         return;
     }
     mind->stalled += step;
-    double wait = RETURN;
-    if (mind->standing == FF_SETTLED) wait = SETTLE * (double)(1u << (mind->detours < 5 ? mind->detours : 5));
-    if (distance > traits->goal_tolerance + LEAVE + TAKEN || mind->stalled > wait) {
+    bool settled = mind->standing == FF_SETTLED;
+    double wait = settled ? SETTLE * (double)(1u << (mind->detours < 5 ? mind->detours : 5)) : RETURN;
+    double reach = traits->goal_tolerance + LEAVE + (settled ? TAKEN : 0.0);
+    if (distance > reach || mind->stalled > wait) {
         mind->standing = FF_WALKS;
         mind->stalled = 0.0;
         mind->best = distance;
@@ -174,7 +176,9 @@ ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neigh
         ff_vec2 way = ff_scale2(other->preferred, 1.0 / wish), x = ff_sub2(me->position, other->position);
         double gap = ff_length2(x) - reach, across = ff_det2(way, x);
         if (gap > WAY_GAP || ff_dot2(way, x) < 0.0 || fabs(across) > reach + 2.0 * FF_PADDING) continue;
-        double side = across >= 0.0 ? 1.0 : -1.0;
+        /* To the side where he will be once the other has moved on: or both step to the same side, again and again. */
+        double later = across - WAY_AHEAD * ff_det2(way, other->velocity);
+        double side = later >= 0.0 ? 1.0 : -1.0;
         sum = ff_madd2(sum, ff_left2(way), side * (1.0 - ff_max(gap, 0.0) / WAY_GAP));
     }
     return ff_scale2(ff_unit2(sum), WAY_SPEED);
