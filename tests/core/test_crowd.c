@@ -191,6 +191,22 @@ static void walls_are_never_crossed_and_a_door_is_passed(void **state)
     ff_crowd_destroy(crowd);
 }
 
+static void who_gets_no_nearer_tries_a_way_round(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        ff_crowd *crowd = new_crowd(1, 1);
+        trial_wall(crowd, ff_v2(3, -1), ff_v2(3, 1)); /* square across the way */
+        if (k == 1)
+            trial_wall(crowd, ff_v2(3, -1), ff_v2(2, -2)); /* a pocket on the right: left it must be */
+        ff_agent agent = add(crowd, ff_v2(0, 0), ff_v2(6, 0));
+        for (int i = 0; i < 30 * 60 && !state_of(crowd, agent).reached; ++i)
+            ff_crowd_step(crowd);
+        assert_true(state_of(crowd, agent).reached);
+        ff_crowd_destroy(crowd);
+    }
+}
+
 static void stale_handles_and_bad_definitions_are_refused(void **state)
 {
     (void)state;
@@ -333,6 +349,7 @@ int main(void)
         cmocka_unit_test(people_on_one_point_part_without_nan),
         cmocka_unit_test(many_with_one_goal_settle_round_it),
         cmocka_unit_test(walls_are_never_crossed_and_a_door_is_passed),
+        cmocka_unit_test(who_gets_no_nearer_tries_a_way_round),
         cmocka_unit_test(stale_handles_and_bad_definitions_are_refused),
         cmocka_unit_test(one_thread_and_two_and_any_order_give_the_same_bits_after_3000_steps),
         cmocka_unit_test(a_pose_can_be_asked_for_at_any_time),
