@@ -4,7 +4,7 @@
 
 #define SLOW_DOWN 0.8 /* m before the goal */
 #define SLOW 0.25     /* m/s: who has braked to that within the tolerance stands */
-#define CREEP 0.12    /* least part of the preferred speed: above the idle threshold of the body */
+#define CREEP 0.15    /* m/s, least speed on the way: above the idle threshold of the body */
 #define LEAVE 0.3     /* m beyond the tolerance until one who was pushed away walks back at once */
 #define RETURN 1.0    /* s, after which he does so from anywhere outside it */
 #define PROGRESS 0.25 /* m nearer to the goal: the least that counts */
@@ -110,7 +110,8 @@ ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neig
             give_way_to_fate(goal_taken(world->grid, neighbours, count, traits), distance, world, traits,
                              mind);
     }
-    double speed = traits->preferred_speed * ff_clamp(distance / SLOW_DOWN, CREEP, 1.0);
+    double fastest = traits->preferred_speed;
+    double speed = ff_max(fastest * ff_min(distance / SLOW_DOWN, 1.0), ff_min(CREEP, fastest));
     ff_vec2 preferred = ff_scale2(ff_unit2(to_goal), speed);
     return mind->detour_left > 0.0 ? turned(preferred, mind->detour) : preferred;
 }

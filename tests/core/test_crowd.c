@@ -84,6 +84,28 @@ static void a_lone_walker_goes_straight_to_the_goal_and_stands_there_without_dit
     ff_crowd_destroy(crowd);
 }
 
+static void slow_people_reach_small_goals_and_fast_ones_do_not_overshoot(void **state)
+{
+    (void)state;
+    const double speeds[] = {0.1, 0.3, 0.8, 1.3, 1.7}, tolerances[] = {0.05, 0.2, 1.0};
+    for (int k = 0; k < 15; ++k) {
+        ff_crowd *crowd = new_crowd(1, 1);
+        ff_error error;
+        ff_agent agent;
+        ff_agent_def def = ff_agent_def_default();
+        def.goal = ff_v2(2.5, 0.5);
+        def.preferred_speed = speeds[k % 5];
+        def.goal_tolerance = tolerances[k / 5];
+        FF_ASSERT_OK(ff_crowd_add_agent(crowd, &def, &agent, &error), error);
+        for (int i = 0; i < 30 * 40 && !state_of(crowd, agent).reached; ++i)
+            ff_crowd_step(crowd);
+        for (int i = 0; i < 90; ++i)
+            ff_crowd_step(crowd);
+        assert_true(state_of(crowd, agent).reached);
+        ff_crowd_destroy(crowd);
+    }
+}
+
 static void who_looks_away_from_the_goal_turns_and_goes(void **state)
 {
     (void)state;
@@ -344,6 +366,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lone_walker_goes_straight_to_the_goal_and_stands_there_without_dithering),
+        cmocka_unit_test(slow_people_reach_small_goals_and_fast_ones_do_not_overshoot),
         cmocka_unit_test(who_looks_away_from_the_goal_turns_and_goes),
         cmocka_unit_test(two_who_meet_head_on_pass_each_other_on_the_right),
         cmocka_unit_test(people_on_one_point_part_without_nan),
