@@ -1,11 +1,9 @@
 #include "preprocess/build.h"
 
-#include "runtime/core/base/memory.h"
 #include "runtime/tool/command_line.h"
 
 #include <jansson.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #define PROGRAM "footfall-pack"
 
@@ -113,15 +111,10 @@ int ff_build_command(int argc, char **argv)
         .options = options,
         .max_operands = -1,
     };
-    ff_operands operands = {.items = ff_calloc((size_t)argc + 1, sizeof *operands.items)};
-    if (!operands.items) return FF_EXIT_FAILURE;
+    ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
-    if (result < 0 && !path) {
-        fprintf(stderr, PROGRAM " build: -o FILE is missing: say where to write the pack\n");
-        result = FF_EXIT_USAGE;
-    }
+    if (result < 0 && !path) result = ff_command_misuse(&command, "--out FILE (-o) is missing");
     settings.threads = (uint32_t)threads;
     if (result < 0) result = build_and_write(&operands, &settings, path, json);
-    free(operands.items);
     return result;
 }

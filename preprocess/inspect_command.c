@@ -1,14 +1,12 @@
 #include "preprocess/build.h"
 
 #include "runtime/core/base/maths.h"
-#include "runtime/core/base/memory.h"
 #include "runtime/core/pack.h"
 #include "runtime/tool/command_line.h"
 
 #include <inttypes.h>
 #include <jansson.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define PROGRAM "footfall-pack"
@@ -236,8 +234,7 @@ int ff_inspect_command(int argc, char **argv)
         .min_operands = 1,
         .max_operands = 1,
     };
-    ff_operands operands = {.items = ff_calloc((size_t)argc + 1, sizeof *operands.items)};
-    if (!operands.items) return FF_EXIT_FAILURE;
+    ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
     if (result < 0) {
         ff_pack *pack;
@@ -250,6 +247,5 @@ int ff_inspect_command(int argc, char **argv)
             result = ff_command_fail(PROGRAM, &error);
         }
     }
-    free(operands.items);
     return result;
 }

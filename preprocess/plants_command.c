@@ -3,12 +3,10 @@
 #include "mocap/catalogue.h"
 #include "preprocess/plants.h"
 #include "runtime/core/base/fail.h"
-#include "runtime/core/base/memory.h"
 #include "runtime/tool/command_line.h"
 #include "runtime/tool/progress.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 static const char *const PROGRAM = "footfall-pack";
 
@@ -99,14 +97,8 @@ int ff_plants_command(int argc, char **argv)
         .min_operands = 1,
         .max_operands = -1,
     };
-    ff_operands operands = {.items = ff_calloc((size_t)argc + 1, sizeof *operands.items)};
-    if (!operands.items) {
-        ff_error error;
-        ff_fail(&error, FF_ERR_NO_MEMORY, "no memory for %d arguments", argc);
-        return ff_command_fail(PROGRAM, &error);
-    }
+    ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
     if (result < 0) result = print_all(operands.items, operands.count, csv ? CSV : TABLE, quiet);
-    free(operands.items);
     return result;
 }

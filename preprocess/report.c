@@ -5,7 +5,6 @@
 #include "runtime/tool/command_line.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const PROGRAM = "footfall-pack";
@@ -164,16 +163,10 @@ int ff_report_command(int argc, char **argv)
         .min_operands = 1,
         .max_operands = 1,
     };
-    ff_operands operands = {.items = ff_calloc((size_t)argc + 1, sizeof *operands.items)};
-    if (!operands.items) {
-        ff_error error;
-        ff_fail(&error, FF_ERR_NO_MEMORY, "no memory for %d arguments", argc);
-        return ff_command_fail(PROGRAM, &error);
-    }
+    ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
     if (result < 0)
         result = folder ? report(operands.items[0], folder)
                         : ff_command_misuse(&command, "--out DIR (-o) is missing");
-    free(operands.items);
     return result;
 }

@@ -230,12 +230,7 @@ int ff_generate_command(int argc, char **argv)
         .min_operands = 0,
         .max_operands = -1,
     };
-    ff_operands operands = {.items = calloc((size_t)argc + 1, sizeof *operands.items)};
-    if (!operands.items) {
-        ff_error error;
-        ff_fail(&error, FF_ERR_NO_MEMORY, "no memory for %d arguments", argc);
-        return ff_command_fail(PROGRAM, &error);
-    }
+    ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
     o->person = (int)person;
     o->seed = (uint64_t)seed;
@@ -244,6 +239,5 @@ int ff_generate_command(int argc, char **argv)
         result = FF_EXIT_OK;
     }
     if (result < 0) result = run(&command, &job, format, &operands, quiet);
-    free(operands.items);
     return result;
 }

@@ -238,9 +238,7 @@ int ff_run_main(int argc, char **argv)
                                 .options = options,
                                 .min_operands = 1,
                                 .max_operands = 1};
-    const char **items = ff_calloc((size_t)argc + 1, sizeof *items);
-    if (!items) return FF_EXIT_FAILURE;
-    ff_operands operands = {items, 0};
+    ff_operands operands;
     int status = ff_command_parse(&command, argc, argv, &operands);
     if (status < 0) {
         given.scene = operands.items[0];
@@ -251,6 +249,5 @@ int ff_run_main(int argc, char **argv)
             status = run_scene(&given);
         }
     }
-    free(items);
     return status;
 }

@@ -164,7 +164,7 @@ static int take_option(const ff_command *command, int argc, char **argv, int *at
 int ff_command_parse(const ff_command *command, int argc, char **argv, ff_operands *operands)
 {
     bool options_end = false;
-    operands->count = 0;
+    *operands = (ff_operands){(const char *const *)argv, 0};
     for (int at = 0; at < argc; ++at) {
         if (!options_end && strcmp(argv[at], "--") == 0) {
             options_end = true;
@@ -172,7 +172,7 @@ int ff_command_parse(const ff_command *command, int argc, char **argv, ff_operan
             int status = take_option(command, argc, argv, &at);
             if (status != GO_ON) return status;
         } else {
-            operands->items[operands->count++] = argv[at];
+            argv[operands->count++] = argv[at]; /* never ahead of what is still to be read */
         }
     }
     if (operands->count < command->min_operands)

@@ -31,9 +31,9 @@ typedef struct ff_command {
     int min_operands, max_operands; /* max < 0: any number */
 } ff_command;
 
-/* What parsing left: operands point into argv. */
+/* What parsing left that is no option: the front of argv, into which parsing moves it. */
 typedef struct ff_operands {
-    const char **items; /* owned by the caller: argc elements given */
+    const char *const *items;
     int count;
 } ff_operands;
 

@@ -11,7 +11,6 @@ typedef struct sample {
     const char *out;
     double seconds;
     int64_t threads;
-    const char *items[16];
     ff_operands operands;
     ff_option options[5];
     ff_command command;
@@ -44,7 +43,6 @@ static void sample_init(sample *s)
                               .options = s->options,
                               .min_operands = 1,
                               .max_operands = 2};
-    s->operands.items = s->items;
 }
 
 enum { MOST_WORDS = 12 };
@@ -52,8 +50,7 @@ enum { MOST_WORDS = 12 };
 /* Parse words given as one string with spaces. */
 static int parse(sample *s, const char *line)
 {
-    static char text[256];
-    char *argv[MOST_WORDS];
+    static char text[256], *argv[MOST_WORDS];
     int argc = 0;
     snprintf(text, sizeof text, "%s", line);
     for (char *word = strtok(text, " "); word && argc < MOST_WORDS; word = strtok(NULL, " "))
