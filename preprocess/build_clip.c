@@ -14,6 +14,7 @@ void ff_build_clip_free(ff_build_clip *clip)
 {
     free(clip->source);
     ff_clip_free(&clip->clip);
+    ff_breaks_free(&clip->repaired);
     ff_plants_free(&clip->plants);
     ff_motion_free(&clip->motion);
     ff_actions_free(&clip->actions);
@@ -64,6 +65,7 @@ void ff_build_clip_load(ff_build_clip *clip, const ff_catalogue_entry *entry)
     clip->mode = entry->mode;
     clip->mirror = entry->mirror;
     clip->first_frame = entry->trim_first;
+    if (status == FF_OK) status = ff_breaks_repair(&clip->clip, &clip->repaired, &clip->error);
     if (status == FF_OK) status = ff_plants_find(&clip->clip, &clip->plants, &clip->error);
     clip->status = status;
 }

@@ -22,6 +22,7 @@ typedef struct ff_build_clip {
     ff_status status; /* of the stages so far */
     ff_error error;
     ff_clip clip;
+    ff_breaks repaired; /* what was broken in the file; what could not be put back is in plants.breaks too */
     ff_plants plants;
     ff_motion motion;
     ff_actions actions;

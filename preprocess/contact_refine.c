@@ -239,7 +239,7 @@ static void find_end(const ff_foot_signals *s, int next_first, double running, f
     c->last = last > c->first ? last : c->first;
 }
 
-static void find_flat(const ff_foot_signals *s, double running, ff_contact *c)
+void ff_contact_find_flat(const ff_foot_signals *s, double running, ff_contact *c)
 {
     double ball = ff_lerp(0.30, 0.6, running), heel = ff_lerp(0.35, 0.7, running);
     int begin = -1;
@@ -266,5 +266,5 @@ void ff_contact_refine(const ff_foot_signals *s, int previous_last, int next_fir
     find_start(s, previous_last, running, c);
     find_end(s, next_first, running, c);
     find_levels(s, c);
-    find_flat(s, running, c);
+    ff_contact_find_flat(s, running, c);
 }

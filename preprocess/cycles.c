@@ -146,6 +146,7 @@ ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const f
             if (first < rest_frames) first = rest_frames;
             if ((last - first) * motion->frame_time < IDLE_MIN) continue;
             if (!feet_together(left, right, motion->root[first].z)) continue;
+            if (ff_breaks_within(&plants->breaks, first, last)) continue;
             double found = best_loop(rig, motion, first, last, &here);
             if (found < seam) seam = found, best = here;
         }
@@ -177,7 +178,8 @@ ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_pla
         cycle c;
         if (plants->items[i].foot != FF_LEFT) continue;
         if (!find_keys(plants, i, motion->frame_time, &c) || c.start < rest_frames + margin ||
-            c.start + c.length + margin > motion->frame_count) {
+            c.start + c.length + margin > motion->frame_count ||
+            ff_breaks_within(&plants->breaks, c.start, c.start + c.length)) {
             ++out->rejected;
             continue;
         }

@@ -111,6 +111,27 @@ static void print_licences(const ff_pack *pack)
     }
 }
 
+/* Where the captures are broken. */
+static void print_broken(const json_t *clips)
+{
+    size_t i, k, put_back = 0;
+    const json_t *clip, *b;
+    bool any = false;
+    json_array_foreach(clips, i, clip) json_array_foreach(json_object_get(clip, "broken"), k, b)
+    {
+        if (!json_is_true(json_object_get(b, "cut"))) {
+            ++put_back;
+            continue;
+        }
+        const char *name = json_string_value(json_object_get(clip, "name"));
+        const char *what = json_string_value(json_object_get(b, "what"));
+        if (!any) printf("broken capture, cut out:\n");
+        any = true;
+        printf("  %s: %s\n", name ? name : "?", what ? what : "?");
+    }
+    if (put_back) printf("%zu wild frames of single joints were put back or do no harm\n", put_back);
+}
+
 static void print_provenance(const ff_pack *pack)
 {
     json_error_t place;
@@ -131,6 +152,7 @@ static void print_provenance(const ff_pack *pack)
         const char *why = json_string_value(json_object_get(entry, "why"));
         printf("  %s: %s\n", source ? source : "?", why ? why : "?");
     }
+    print_broken(json_object_get(meta, "clips"));
     json_decref(meta);
 }
 

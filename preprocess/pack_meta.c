@@ -20,6 +20,24 @@ static json_t *rejections_of(const ff_build_clip *clip)
     return list;
 }
 
+/* What is wrong with the capture: put back, or cut out. */
+static json_t *breaks_of(const ff_build_clip *clip)
+{
+    json_t *list = json_array();
+    double dt = clip->motion.frame_time;
+    for (int i = 0; i < clip->repaired.count; ++i) {
+        ff_break b = clip->repaired.items[i];
+        char text[160];
+        b.first += clip->first_frame; /* frames of the file */
+        b.last += clip->first_frame;
+        ff_break_say(&b, text, sizeof text);
+        json_array_append_new(list, json_pack("{s:s, s:f, s:f, s:b, s:s}", "kind", ff_break_kind_name(b.kind),
+                                              "from", b.first * dt, "to", b.last * dt, "cut",
+                                              b.body && !b.repaired, "what", text));
+    }
+    return list;
+}
+
 static json_t *clip_entry(const ff_build_clip *clip)
 {
     char hash[20];
@@ -30,6 +48,7 @@ static json_t *clip_entry(const ff_build_clip *clip)
                   clip->citation, "tags", clip->tags, "mode", clip->mode, "first_frame", clip->first_frame,
                   "mirror", clip->mirror ? 1 : 0, "subject", clip->subject, "unit_m", clip->clip.unit_m,
                   "frames", clip->clip.frame_count, "rejected", rejections_of(clip));
+    if (entry && clip->repaired.count > 0) json_object_set_new(entry, "broken", breaks_of(clip));
     if (entry && clip->clip.warning_count > 0)
         json_object_set_new(entry, "warning", json_string(clip->clip.warning));
     return entry;

@@ -17,6 +17,9 @@ static const double ABOVE_FLOOR = 0.05, ABOVE_PER_SCATTER = 3.0;
 /* m/s: ground speed of the hips at which a walk has surely become a run, and ends of the blend between the rules. */
 static const double WALKING = 1.85, RUNNING = 2.15;
 
+/* m: a foot that jumps this far was not standing while it did. */
+static const double TORN = 0.08;
+
 /* What is known while one clip is searched. */
 typedef struct search {
     const ff_clip *clip;
@@ -152,6 +155,57 @@ static void refine_foot(search *s, int foot)
     }
 }
 
+/* Is the foot, or the body it belongs to, somewhere else after this break? */
+static bool tears(const ff_break *b, int foot)
+{
+    if (b->repaired || !b->body) return false;
+    if (b->kind == FF_BREAK_FROZEN) return true;
+    ff_role first = foot == FF_LEFT ? FF_ROLE_HIP_R : FF_ROLE_HIP_L; /* the other leg */
+    bool other = b->role >= first && b->role <= first + (FF_ROLE_BALL_L - FF_ROLE_HIP_L);
+    return b->kind == FF_BREAK_JUMP && b->size > TORN && !other;
+}
+
+/* Cut the torn stretch out of the foot's contacts: what is left on either side is a contact of its own. */
+static void cut_out(search *s, int foot, const ff_break *b)
+{
+    ff_contact *contacts = s->contacts[foot];
+    int factor = s->feet[foot].factor, rest = s->clip->rest_frames, capacity = s->feet[foot].count / 2 + 1;
+    int from = (b->first - rest) * factor, to = (b->last - rest) * factor,
+        least = (int)(0.06 * s->feet[foot].rate);
+    for (int c = 0; c < s->count[foot]; ++c) {
+        ff_contact after = contacts[c];
+        if (after.first > to || after.last < from) continue;
+        after.first = after.first > to ? after.first : to + 1;
+        contacts[c].last = contacts[c].last < from ? contacts[c].last : from - 1;
+        bool keep_before = contacts[c].last - contacts[c].first >= least,
+             keep_after = after.last - after.first >= least;
+        if (keep_before && keep_after && s->count[foot] < capacity) {
+            memmove(contacts + c + 1, contacts + c, (size_t)(s->count[foot] - c) * sizeof *contacts);
+            ++s->count[foot];
+            contacts[++c] = after;
+        } else if (keep_after) {
+            contacts[c] = after;
+        } else if (!keep_before) {
+            memmove(contacts + c, contacts + c + 1, (size_t)(s->count[foot] - c - 1) * sizeof *contacts);
+            --s->count[foot];
+            --c;
+        }
+    }
+}
+
+static void cut_out_breaks(search *s, const ff_breaks *breaks)
+{
+    for (int foot = 0; foot < 2; ++foot) {
+        int before = s->count[foot];
+        for (int i = 0; i < breaks->count; ++i)
+            if (tears(&breaks->items[i], foot)) cut_out(s, foot, &breaks->items[i]);
+        bool changed = s->count[foot] != before || breaks->count > 0;
+        for (int c = 0; changed && c < s->count[foot]; ++c)
+            ff_contact_find_flat(&s->feet[foot], running_share(s, &s->contacts[foot][c]),
+                                 &s->contacts[foot][c]);
+    }
+}
+
 /* The labels' idea of trust: 1 when the estimates agree, 0.8 with one unsure end, 0.7 or less for runs, cut ones and
  * ones that were never flat. */
 static double confidence(const ff_contact *c, double running, bool cut)
@@ -268,6 +322,7 @@ ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error)
     memset(out, 0, sizeof *out);
     search s;
     ff_status status = search_begin(&s, clip, out, error);
+    if (status == FF_OK) status = ff_breaks_find(clip, &out->breaks, error);
     if (status == FF_OK) {
         int capacity = s.feet[0].count / 2 + 1;
         for (int foot = 0; foot < 2; ++foot)
@@ -280,6 +335,7 @@ ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error)
             s.count[foot] = ff_contacts_keep_low(&s.feet[foot], tolerance, s.contacts[foot], s.count[foot]);
             refine_foot(&s, foot);
         }
+        cut_out_breaks(&s, &out->breaks);
         status = collect(&s, out, error);
     }
     if (status == FF_OK)
@@ -294,5 +350,6 @@ void ff_plants_free(ff_plants *plants)
 {
     free(plants->items);
     free(plants->tracks);
+    ff_breaks_free(&plants->breaks);
     memset(plants, 0, sizeof *plants);
 }

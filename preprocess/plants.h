@@ -3,6 +3,7 @@
 #define FF_PLANTS_H
 
 #include "mocap/clip.h"
+#include "preprocess/breaks.h"
 
 enum { FF_LEFT = 0, FF_RIGHT = 1 };
 
@@ -50,6 +51,7 @@ typedef struct ff_plants {
     ff_foot_shape shape[2];
     ff_foot_track *tracks; /* [frame_count][2] */
     int frame_count;
+    ff_breaks breaks; /* where the clip is broken: no plant goes across a jump or a frozen stretch */
 } ff_plants;
 
 /* Find the plants of a clip by height and velocity over a fitted floor plane (footstep planning, section 4;

@@ -21,6 +21,15 @@ static void print_csv(const ff_clip *clip, const ff_plants *plants)
     }
 }
 
+static void print_breaks(const ff_breaks *breaks)
+{
+    for (int i = 0; i < breaks->count; ++i) {
+        char text[160];
+        ff_break_say(&breaks->items[i], text, sizeof text);
+        printf("  broken at %s\n", text);
+    }
+}
+
 static void print_table(const ff_clip *clip, const ff_plants *plants)
 {
     printf("%s: %d frames at %.4g Hz, %d plants; floor at %.1f cm, slope %.1f cm/m\n", clip->name,
@@ -43,15 +52,19 @@ static ff_status print_clip(const ff_catalogue_entry *entry, plants_layout layou
     ff_status status = ff_clip_load(entry->path, &entry->options, &clip, error);
     if (status != FF_OK) return status;
     ff_plants plants;
-    status = ff_plants_find(&clip, &plants, error);
+    ff_breaks breaks;
+    status = ff_breaks_repair(&clip, &breaks, error);
+    if (status == FF_OK) status = ff_plants_find(&clip, &plants, error);
     if (status == FF_OK) {
         if (layout == CSV)
             print_csv(&clip, &plants);
         else
             print_table(&clip, &plants);
+        if (layout == TABLE) print_breaks(&breaks);
         ff_plants_free(&plants);
     } else
         ff_error_in_file(error, entry->path);
+    ff_breaks_free(&breaks);
     ff_clip_free(&clip);
     return status;
 }

@@ -81,6 +81,24 @@ static void write_skipped(ff_text *page, const json_t *meta)
     ff_text_add(page, "</ul>\n");
 }
 
+static void write_breaks(ff_text *page, const json_t *broken)
+{
+    size_t i;
+    const json_t *b;
+    if (json_array_size(broken) == 0) return;
+    ff_text_add(page, "<details open><summary>broken capture</summary><ul>");
+    json_array_foreach(broken, i, b)
+    {
+        const char *what = json_string_value(json_object_get(b, "what"));
+        ff_text_add(page, "<li>%.2f to %.2f s, ", json_number_value(json_object_get(b, "from")),
+                    json_number_value(json_object_get(b, "to")));
+        ff_report_text(page, what ? what : "?");
+        ff_text_add(page,
+                    json_is_true(json_object_get(b, "cut")) ? ": nothing is cut across it</li>" : "</li>");
+    }
+    ff_text_add(page, "</ul></details>\n");
+}
+
 static void write_clip(ff_text *page, const ff_pack *pack, uint32_t index, const json_t *meta)
 {
     const ff_pack_clip *clip = &pack->clips[index];
@@ -100,6 +118,7 @@ static void write_clip(ff_text *page, const ff_pack *pack, uint32_t index, const
     ff_text_add(page, "</small></h2>\n");
     const json_t *entry = json_array_get(json_object_get(meta, "clips"), index);
     ff_report_timeline(page, pack, clip, json_object_get(entry, "rejected"));
+    write_breaks(page, json_object_get(entry, "broken"));
     ff_report_steps(page, pack, clip);
 }
 

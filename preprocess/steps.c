@@ -57,6 +57,11 @@ static ff_status reject(cutting *c, int first, int last, const char *reason)
 static ff_status take(cutting *c, const ff_step_span *span)
 {
     char reason[sizeof((ff_rejection *)0)->reason];
+    const ff_break *b = ff_breaks_within(&c->plants->breaks, span->first, span->last);
+    if (b) {
+        ff_break_say(b, reason, sizeof reason);
+        return reject(c, span->first, span->last, reason);
+    }
     ff_action *action = ff_array_grow(&c->actions, 1, sizeof *action);
     if (!action) return no_memory(c);
     ff_action_annotate(c->rig, c->motion, c->plants, span, action);
