@@ -14,8 +14,10 @@
 #define END_MARGIN 0.1
 /* Slower turns than this are a wobble of a straight walk (rad/s). */
 #define STRAIGHT_TURN 0.1f
-#define DRIFT 0.04f   /* m/s */
-#define LOCK_MIN 0.08 /* share of the cycle; a shorter stance means the plants are wrong */
+#define DRIFT 0.04f    /* m/s */
+#define CUT_STEP 0.03  /* s, between the cuts that are tried */
+#define CUT_SLACK 0.03 /* s, that a cut may be shorter or longer than from contact to contact */
+#define LOCK_MIN 0.08  /* share of the cycle; a shorter stance means the plants are wrong */
 
 void ff_cycles_free(ff_cycles *cycles)
 {
@@ -84,18 +86,43 @@ static void straighten(ff_pack_example *record)
         record->turn_rate = 0.0f;
 }
 
-static ff_status make_example(const ff_rig *rig, const ff_motion *motion, const cycle *c, ff_example *out,
-                              ff_error *error)
+/* The stretch, about as long as from contact to contact, whose ends agree best: cut anywhere in the cycle, as the
+ * contact itself is where poses change fastest. first, last: the frames that may be used. */
+static ff_stretch best_cut(const ff_rig *rig, const ff_motion *motion, const cycle *c, int first, int last)
 {
-    ff_stretch stretch = {c->start, c->length};
+    ff_stretch best = {c->start, c->length};
+    int step = (int)ceil(CUT_STEP / motion->frame_time), reach = c->length / 2;
+    double least = ff_loop_cost(rig, motion, &best);
+    for (int d = -reach / step; d <= reach / step; ++d) {
+        ff_stretch here = {c->start + d * step, c->length};
+        if (d == 0 || here.start < first || here.start + here.length > last) continue;
+        double cost = ff_loop_cost(rig, motion, &here);
+        if (cost < least) least = cost, best = here;
+    }
+    ff_stretch middle = best;
+    int slack = (int)floor(CUT_SLACK / motion->frame_time);
+    for (int d = -slack; d <= slack; ++d) {
+        ff_stretch here = {middle.start, c->length + d};
+        if (d == 0 || here.start + here.length > last) continue;
+        double cost = ff_loop_cost(rig, motion, &here);
+        if (cost < least) least = cost, best = here;
+    }
+    return best;
+}
+
+static ff_status make_example(const ff_rig *rig, const ff_motion *motion, const cycle *c, ff_stretch stretch,
+                              ff_example *out, ff_error *error)
+{
     ff_steady_root root = ff_steady_root_fit(motion, &stretch);
-    ff_status status = ff_loop_close(rig, motion, &stretch, &root, out, error);
+    double contact = (c->start - stretch.start) / (double)stretch.length;
+    ff_status status = ff_loop_close(rig, motion, &stretch, &root, contact - floor(contact), out, error);
     if (status != FF_OK) return status;
     ff_pack_example *record = &out->record;
     record->gait = (uint32_t)c->gait;
     for (int k = 0; k < 4; ++k)
         record->key[k] = (float)(c->key[k] / c->length);
     straighten(record);
+    ff_loop_find_contact_kick(rig, out);
     return FF_OK;
 }
 
@@ -154,7 +181,7 @@ ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const f
     if (best.length == 0) return FF_OK;
     ff_example *example = &out->items[out->count];
     ff_steady_root root = ff_steady_root_still(motion, &best);
-    ff_status status = ff_loop_close(rig, motion, &best, &root, example, error);
+    ff_status status = ff_loop_close(rig, motion, &best, &root, 0.0, example, error);
     if (status != FF_OK) return status;
     const float keys[4] = {0.0f, 0.1f, 0.5f, 0.6f};
     memcpy(example->record.key, keys, sizeof keys);
@@ -184,7 +211,8 @@ ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_pla
             continue;
         }
         ff_example *example = &out->items[out->count];
-        ff_status status = make_example(rig, motion, &c, example, error);
+        ff_stretch cut = best_cut(rig, motion, &c, rest_frames + margin, motion->frame_count - margin);
+        ff_status status = make_example(rig, motion, &c, cut, example, error);
         if (status != FF_OK) {
             ff_cycles_free(out);
             return status;

@@ -159,6 +159,7 @@ static ff_status copy_head(const ff_example *example, ff_example *out, const cha
     ff_status status = ff_example_alloc(out, example->frame_count, error);
     if (status != FF_OK) return status;
     out->record = example->record;
+    out->loop = example->loop;
     out->clip = example->clip;
     out->first_frame = example->first_frame;
     out->wander = example->wander;
@@ -178,6 +179,7 @@ ff_status ff_example_mirror(const ff_rig *rig, const ff_example *example, ff_exa
     out->record.key[1] = (float)phase_after((double)key[3], start);
     out->record.key[2] = (float)phase_after((double)key[0], start);
     out->record.key[3] = (float)phase_after((double)key[1], start);
+    out->loop.cut = (float)phase_after((double)example->loop.cut, start);
     for (int k = 0; k < out->frame_count; ++k) {
         ff_quat from[FF_ROLE_JOINT_COUNT], *to = out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
         ff_vec3 hips;
@@ -199,6 +201,7 @@ ff_status ff_example_reverse(const ff_rig *rig, const ff_example *example, ff_ex
     const float *key = example->record.key;
     double start = (double)key[3]; /* where the left foot lifted it now lands */
     out->record.flags |= FF_EXAMPLE_DERIVED;
+    out->loop.cut = (float)phase_after(start, (double)example->loop.cut);
     out->record.v_forward = 0.0f - example->record.v_forward;
     out->record.v_left = 0.0f - example->record.v_left;
     out->record.turn_rate = 0.0f - example->record.turn_rate;

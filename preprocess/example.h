@@ -7,6 +7,7 @@
 
 typedef struct ff_example {
     ff_pack_example record; /* name, clip and stream are filled in by the pack builder */
+    ff_pack_loop loop;
     char name[96];
     int clip;        /* index of the clip it was cut from, -1 = made up */
     int first_frame; /* of that clip's motion */

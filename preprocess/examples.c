@@ -1,24 +1,16 @@
 #include "preprocess/examples.h"
 
 #include "preprocess/derive.h"
+#include "preprocess/example_judge.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What a cycle may cost to be used: seam (m) and wander (rad). Turns never close as well as straight walks do
- * (synthesis study, section 1). */
-#define SEAM_STRAIGHT 0.05
-#define SEAM_OTHER 0.08
-#define WANDER 0.2
-#define SEAM_IDLE 0.015
-#define RESTLESS 0.03 /* m */
-#define LOCK_WALK                                                                                            \
-    0.4 /* of the cycle; people stand on a foot for 0.6 of it, and a shorter lock comes of a capture fault */
-#define CROSSED 0.08     /* m */
 #define WANDER_COST 0.15 /* m per rad */
 #define KNEE_SOFT (6.0 * FF_DEG)
+#define KNEE_LOCKED (3.0 * FF_DEG)
 #define KNEE_COST 0.2     /* m per rad */
 #define TURN_COST 0.2     /* m, more than any seam */
 #define STRANGER_COST 1.0 /* m, far more than any seam: others are taken where the base person has none */
@@ -27,8 +19,6 @@
 /* Examples are at least this far apart (m/s). */
 #define SPACING_WALK 0.15
 #define SPACING_RUN 0.4
-/* Hips lower than this share of their height in the rest pose crouch. */
-#define UPRIGHT 0.9
 
 static ff_vec3 point_of(const ff_example *e)
 {
@@ -45,69 +35,6 @@ static ff_vec3 mirror_point(ff_vec3 p)
 static double distance(ff_vec3 p, ff_vec3 q)
 {
     return ff_min(ff_length3(ff_sub3(p, q)), ff_length3(ff_sub3(p, mirror_point(q))));
-}
-
-static bool is_straight(const ff_example *e)
-{
-    return e->record.v_left == 0.0f && e->record.turn_rate == 0.0f;
-}
-
-/* --------------------------------------------------------------------------------------------- what is usable */
-
-static double mean_height(const ff_example *e)
-{
-    double sum = 0.0;
-    for (int k = 0; k < e->frame_count; ++k)
-        sum += e->hips[k].z;
-    return sum / e->frame_count;
-}
-
-/* Does the left foot pass to the right of the right one? Blended with other gaits, crossed legs meet. */
-static bool legs_cross(const ff_example *e)
-{
-    for (int k = 0; k < e->frame_count; ++k)
-        if ((double)e->feet[2 * k].ball[1] - (double)e->feet[2 * k + 1].ball[1] < -CROSSED) return true;
-    return false;
-}
-
-/* Largest way of any joint over the cycle, mean over the joints: how restless a standing person is. */
-static double restlessness(const ff_rig *rig, const ff_example *e)
-{
-    ff_vec3 first[FF_BODY_COUNT], at[FF_BODY_COUNT];
-    double most[FF_BODY_COUNT] = {0.0}, sum = 0.0;
-    ff_example_pose(rig, e, 0, first);
-    for (int k = 1; k < e->frame_count; ++k) {
-        ff_example_pose(rig, e, k, at);
-        for (int r = 0; r < FF_BODY_COUNT; ++r)
-            most[r] = ff_max(most[r], ff_length3(ff_sub3(at[r], first[r])));
-    }
-    for (int r = 0; r < FF_BODY_COUNT; ++r)
-        sum += most[r];
-    return sum / FF_BODY_COUNT;
-}
-
-/* The shorter of the stretches in which a foot stands still, as a share of the cycle. */
-static double shortest_lock(const ff_example *e)
-{
-    double shortest = 1.0;
-    for (int foot = 0; foot < 2; ++foot) {
-        double length = (double)e->record.lock[foot][1] - (double)e->record.lock[foot][0];
-        shortest = ff_min(shortest, length < 0.0 ? length + 1.0 : length);
-    }
-    return shortest;
-}
-
-static bool is_usable(const ff_rig *rig, const ff_example *e)
-{
-    double v = ff_length2(ff_v2((double)e->record.v_forward, (double)e->record.v_left)),
-           seam = (double)e->record.seam;
-    if (mean_height(e) < UPRIGHT * rig->offset[FF_ROLE_HIPS].y) return false;
-    if (e->record.flags & FF_EXAMPLE_IDLE) return seam < SEAM_IDLE && restlessness(rig, e) < RESTLESS;
-    if (seam > (is_straight(e) && e->record.gait == FF_GAIT_WALK ? SEAM_STRAIGHT : SEAM_OTHER)) return false;
-    if (e->wander > WANDER || legs_cross(e)) return false;
-    if (e->record.gait == FF_GAIT_WALK && shortest_lock(e) < LOCK_WALK) return false;
-    if (e->record.gait == FF_GAIT_RUN) return e->record.v_forward > 1.5f;
-    return v < 2.4 && fabs((double)e->record.turn_rate) < 2.6;
 }
 
 /* -------------------------------------------------------------------------------------------------- choosing */
@@ -141,7 +68,7 @@ static double cost_of(const ff_example *e)
 {
     double knee = ff_max(0.0, KNEE_SOFT - straightest_knee(e));
     return (double)e->record.seam + WANDER_COST * e->wander + KNEE_COST * knee +
-           (is_straight(e) ? 0.0 : TURN_COST);
+           (ff_example_is_straight(e) ? 0.0 : TURN_COST);
 }
 
 /* Take candidates in order of cost, each one that is spacing away from all taken before (a stranger a third
@@ -164,7 +91,8 @@ static int choose(const candidate *list, int count, int subject, uint32_t gait, 
     return taken;
 }
 
-/* The subject whose forward walks cover most rates; straight ones, which people walk most, count twice. */
+/* The subject whose forward walks cover most rates; straight ones, which people walk most, count more, those whose
+ * knees lock half. */
 static int find_base(const candidate *list, int count, int *chosen)
 {
     int best = -1, most = 0;
@@ -177,7 +105,8 @@ static int find_base(const candidate *list, int count, int *chosen)
             covered = 0;
         for (int k = 0; k < taken; ++k) {
             const ff_example *e = list[chosen[k]].example;
-            if (e->record.v_forward > 0.3f) covered += is_straight(e) ? 2 : 1;
+            int worth = (ff_example_is_straight(e) ? 4 : 3) / (straightest_knee(e) < KNEE_LOCKED ? 2 : 1);
+            if (e->record.v_forward > 0.3f) covered += worth;
         }
         bool earlier = covered == most && list[i].subject < best;
         if (covered > most || earlier) most = covered, best = list[i].subject;
@@ -185,14 +114,24 @@ static int find_base(const candidate *list, int count, int *chosen)
     return best;
 }
 
+/* Usable? If not, the set remembers why. */
+static bool judge(const ff_rig *rig, const ff_example *e, ff_example_set *set)
+{
+    ff_left_out *out = &set->left_out[set->left_out_count];
+    if (ff_example_judge(rig, e, out->why, sizeof out->why)) return true;
+    memcpy(out->name, e->name, sizeof out->name);
+    ++set->left_out_count;
+    return false;
+}
+
 static int list_candidates(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
-                           candidate *list)
+                           candidate *list, ff_example_set *set)
 {
     int count = 0;
     for (int c = 0; c < clip_count; ++c) {
         for (int i = 0; i < cycles[c].count; ++i) {
             ff_example *e = &cycles[c].items[i];
-            if (!is_usable(rig, e)) continue;
+            if (!judge(rig, e, set)) continue;
             list[count] = (candidate){e, subject[c], count, cost_of(e)};
             ++count;
         }
@@ -217,7 +156,7 @@ static ff_status add_example(const ff_rig *rig, ff_example_set *set, int capacit
     *slot = *e;
     memset(e, 0, sizeof *e);
     ++set->count;
-    if (is_straight(slot)) return FF_OK;
+    if (ff_example_is_straight(slot)) return FF_OK;
     ff_example *mirrored = add_slot(set, capacity);
     if (!mirrored) return ff_fail(error, FF_ERR_RANGE, "more than %d examples", capacity);
     ff_status status = ff_example_mirror(rig, slot, mirrored, error);
@@ -274,7 +213,8 @@ static const ff_example *find_model(const ff_example_set *set)
     const ff_example *best = NULL;
     for (int i = 0; i < set->count; ++i) {
         const ff_example *e = &set->items[i];
-        if (e->record.gait != FF_GAIT_WALK || !is_straight(e) || e->record.v_forward < 0.5f) continue;
+        if (e->record.gait != FF_GAIT_WALK || !ff_example_is_straight(e) || e->record.v_forward < 0.5f)
+            continue;
         if (!best || fabsf(e->record.v_forward - 1.15f) < fabsf(best->record.v_forward - 1.15f)) best = e;
     }
     return best;
@@ -335,7 +275,7 @@ static ff_status fill_set(const ff_rig *rig, candidate *list, int count, int *ch
             error, FF_ERR_NO_DATA,
             "no clip has a whole straight walking cycle (left contact to left contact) that closes within "
             "%.0f cm; add longer walks",
-            100.0 * SEAM_STRAIGHT);
+            100.0 * 2.0 * FF_LOOP_MOVED_STRAIGHT);
     if (status == FF_OK) status = derive_needs(rig, model, out, room, error);
     if (status == FF_OK) status = add_idle(rig, list, count, model, out, room, error);
     if (status == FF_OK) qsort(out->items, (size_t)out->count, sizeof *out->items, by_rates);
@@ -352,9 +292,10 @@ ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *su
     candidate *list = ff_calloc(all, sizeof *list);
     int *chosen = ff_calloc(all, sizeof *chosen);
     out->items = ff_calloc(2 * (FF_EXAMPLES_MAX_WALKS + FF_EXAMPLES_MAX_RUNS), sizeof *out->items);
+    out->left_out = ff_calloc(all, sizeof *out->left_out);
     ff_status status;
-    if (list && chosen && out->items) {
-        int count = list_candidates(rig, cycles, subject, clip_count, list);
+    if (list && chosen && out->items && out->left_out) {
+        int count = list_candidates(rig, cycles, subject, clip_count, list, out);
         status = fill_set(rig, list, count, chosen, out, error);
     } else {
         status = ff_fail(error, FF_ERR_NO_MEMORY, "choosing among %zu gait cycles", all);
@@ -370,5 +311,6 @@ void ff_example_set_free(ff_example_set *set)
     for (int i = 0; i < set->count; ++i)
         ff_example_free(&set->items[i]);
     free(set->items);
+    free(set->left_out);
     memset(set, 0, sizeof *set);
 }

@@ -7,12 +7,19 @@
 #define FF_EXAMPLES_MAX_WALKS 60
 #define FF_EXAMPLES_MAX_RUNS 20
 
+/* A cycle that was not good enough. */
+typedef struct ff_left_out {
+    char name[96], why[96];
+} ff_left_out;
+
 typedef struct ff_example_set {
     ff_example
         *items; /* idle first, then walks, then runs, each by rates; mirrored copies follow their original */
     int count;
     int base;       /* subject whose cycles come first, -1 = none */
     int candidates; /* cycles that were good enough to choose from */
+    ff_left_out *left_out;
+    int left_out_count;
 } ff_example_set;
 
 /* Choose from the cycles of every clip (whose subject is subject[clip]) a set that covers as many rates as the clips

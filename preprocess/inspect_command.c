@@ -72,14 +72,19 @@ static void print_actions(const ff_pack *pack)
 
 static void print_examples(const ff_pack *pack)
 {
-    printf("\nexamples                                  forward   left   turn  cycle  seam\n"
-           "                                              m/s    m/s  deg/s      s    cm\n");
+    printf("\nexamples                                  forward   left   turn  cycle  seam  closing  jump   "
+           "kick\n"
+           "                                              m/s    m/s  deg/s      s    cm       cm    mm   "
+           "cm/s\n");
     for (uint32_t i = 0; i < pack->example_count; ++i) {
         const ff_pack_example *e = &pack->examples[i];
         char kind[48];
-        printf("  %-38.38s %8.2f %6.2f %6.0f %6.2f %5.1f  %s\n", ff_pack_string(pack, e->name),
-               (double)e->v_forward, (double)e->v_left, (double)e->turn_rate / FF_DEG, (double)e->period,
-               100.0 * (double)e->seam, example_kind(e, kind, sizeof kind));
+        const ff_pack_loop none = {0}, *loop = pack->loop_count ? &pack->loops[i] : &none;
+        printf("  %-38.38s %8.2f %6.2f %6.0f %6.2f %5.1f %8.1f %5.2f %3.0f/%-3.0f  %s\n",
+               ff_pack_string(pack, e->name), (double)e->v_forward, (double)e->v_left,
+               (double)e->turn_rate / FF_DEG, (double)e->period, 100.0 * (double)e->seam,
+               100.0 * (double)loop->moved, 1000.0 * (double)loop->jump, 100.0 * (double)loop->cut_kick,
+               100.0 * (double)loop->contact_kick, example_kind(e, kind, sizeof kind));
     }
 }
 

@@ -2,8 +2,12 @@
 
 #include "runtime/core/base/fail.h"
 
+#include <string.h>
+
 /* Travel within this angle of straight ahead (or back) counts as straight (algorithms A.10). */
 #define STRAIGHT_ANGLE (15.0 * FF_DEG)
+#define SPEED_SPAN (1.0 / 60.0) /* s */
+#define SPEED_COUNTS 0.1        /* m per m/s: what a change of velocity adds to the cost of a cut (A.12) */
 
 static void steady_at(const ff_steady_root *root, double t, ff_vec2 *position, double *heading)
 {
@@ -100,10 +104,27 @@ static void residual_pose(const ff_motion *motion, const ff_stretch *c, const ff
     rotations[0] = ff_quat_mul(ff_quat_yaw(r.z - heading), rotations[0]);
 }
 
+static void joints_of(const ff_rig *rig, ff_vec3 hips, const ff_quat *local, ff_vec3 *at)
+{
+    ff_quat world[FF_ROLE_JOINT_COUNT];
+    world[0] = local[0];
+    for (int r = 1; r < FF_ROLE_JOINT_COUNT; ++r)
+        world[r] = ff_quat_mul(world[ff_role_parent((ff_role)r)], local[r]);
+    ff_rig_pose(rig, ff_v3(hips.y, hips.z, hips.x), world, at);
+}
+
+static double farthest(const ff_vec3 *p, const ff_vec3 *q)
+{
+    double most = 0.0;
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
+        most = ff_max(most, ff_length3(ff_sub3(p[r], q[r])));
+    return most;
+}
+
 /* What is missing at the end of the cycle to be back at its start. */
 typedef struct gap {
     ff_vec3 hips, turn[FF_ROLE_JOINT_COUNT];
-    double mean; /* m, over the joints */
+    double mean, most; /* m, over the joints */
 } gap;
 
 static gap measure_gap(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c,
@@ -113,37 +134,76 @@ static gap measure_gap(const ff_rig *rig, const ff_motion *motion, const ff_stre
     ff_vec3 hips0, hips1, at0[FF_BODY_COUNT], at1[FF_BODY_COUNT];
     residual_pose(motion, c, root, 0.0, &hips0, first);
     residual_pose(motion, c, root, c->length, &hips1, last);
-    gap out = {.hips = ff_sub3(hips0, hips1), .mean = 0.0};
-    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
+    gap out = {.hips = ff_sub3(hips0, hips1)};
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
         out.turn[r] = ff_quat_log(ff_quat_mul(ff_quat_conj(last[r]), first[r]));
-        int parent = (int)ff_role_parent((ff_role)r);
-        if (parent < 0) continue;
-        first[r] = ff_quat_mul(first[parent], first[r]);
-        last[r] = ff_quat_mul(last[parent], last[r]);
-    }
-    ff_rig_pose(rig, ff_v3(hips0.y, hips0.z, hips0.x), first, at0);
-    ff_rig_pose(rig, ff_v3(hips1.y, hips1.z, hips1.x), last, at1);
+    joints_of(rig, hips0, first, at0);
+    joints_of(rig, hips1, last, at1);
     for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
         out.mean += ff_length3(ff_sub3(at1[r], at0[r])) / FF_ROLE_JOINT_COUNT;
+    out.most = farthest(at0, at1);
     return out;
 }
 
-/* Poses at near 60 Hz with the gap spread linearly, half of it before and half after mid-cycle. */
+/* How much the joints' velocities (m/s, mean) differ at the end from those at the start. */
+static double measure_kick(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c,
+                           const ff_steady_root *root)
+{
+    double span = SPEED_SPAN / motion->frame_time, sum = 0.0;
+    const double when[4] = {span, -span, c->length + span, c->length - span};
+    ff_vec3 at[4][FF_BODY_COUNT], hips;
+    ff_quat local[FF_ROLE_JOINT_COUNT];
+    for (int i = 0; i < 4; ++i) {
+        residual_pose(motion, c, root, when[i], &hips, local);
+        joints_of(rig, hips, local, at[i]);
+    }
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
+        sum += ff_length3(ff_sub3(ff_sub3(at[0][r], at[1][r]), ff_sub3(at[2][r], at[3][r])));
+    return sum / (2.0 * SPEED_SPAN * FF_ROLE_JOINT_COUNT);
+}
+
+/* Spread the gap linearly over the stretch: half of it lies before, half after its middle. */
+static void close_pose(const gap *missing, double share, ff_vec3 *hips, ff_quat *local)
+{
+    *hips = ff_madd3(*hips, missing->hips, share - 0.5);
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
+        local[r] = ff_quat_mul(local[r], ff_quat_exp(ff_scale3(missing->turn[r], share - 0.5)));
+}
+
+/* Closed poses at near 60 Hz, frame 0 at the share `first` of the stretch. */
 static void fill_poses(const ff_motion *motion, const ff_stretch *c, const ff_steady_root *root,
-                       const gap *missing, ff_example *out)
+                       const gap *missing, double first, ff_example *out)
 {
     for (int k = 0; k < out->frame_count; ++k) {
-        double share = k / (double)out->frame_count, part = share - 0.5;
+        double share = first + k / (double)out->frame_count;
+        share -= floor(share);
         ff_quat *local = out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
         residual_pose(motion, c, root, share * c->length, &out->hips[k], local);
-        out->hips[k] = ff_madd3(out->hips[k], missing->hips, part);
-        for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
-            ff_quat q = ff_quat_mul(local[r], ff_quat_exp(ff_scale3(missing->turn[r], part)));
-            if (k && ff_quat_dot(q, local[r - FF_ROLE_JOINT_COUNT]) < 0.0)
-                q = (ff_quat){-q.x, -q.y, -q.z, -q.w};
-            local[r] = q;
-        }
+        close_pose(missing, share, &out->hips[k], local);
+        for (int r = 0; r < FF_ROLE_JOINT_COUNT && k > 0; ++r)
+            if (ff_quat_dot(local[r], local[r - FF_ROLE_JOINT_COUNT]) < 0.0)
+                local[r] = (ff_quat){-local[r].x, -local[r].y, -local[r].z, -local[r].w};
     }
+}
+
+/* What closing did: how far it moved any joint, and what is left between the last and the first pose. */
+static void measure_closing(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c,
+                            const ff_steady_root *root, const gap *missing, ff_pack_loop *out)
+{
+    enum { SAMPLES = 16 };
+    ff_vec3 before[FF_BODY_COUNT], after[FF_BODY_COUNT], first[FF_BODY_COUNT], hips;
+    ff_quat local[FF_ROLE_JOINT_COUNT];
+    *out = (ff_pack_loop){0};
+    for (int k = 0; k <= SAMPLES; ++k) {
+        double share = k / (double)SAMPLES;
+        residual_pose(motion, c, root, share * c->length, &hips, local);
+        joints_of(rig, hips, local, before);
+        close_pose(missing, share, &hips, local);
+        joints_of(rig, hips, local, after);
+        out->moved = (float)ff_max((double)out->moved, farthest(before, after));
+        if (k == 0) memcpy(first, after, sizeof first);
+    }
+    out->jump = (float)farthest(first, after);
 }
 
 double ff_loop_seam(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c,
@@ -152,14 +212,24 @@ double ff_loop_seam(const ff_rig *rig, const ff_motion *motion, const ff_stretch
     return measure_gap(rig, motion, c, root).mean;
 }
 
+double ff_loop_cost(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c)
+{
+    ff_steady_root root = ff_steady_root_fit(motion, c);
+    gap missing = measure_gap(rig, motion, c, &root);
+    return missing.mean + 0.5 * missing.most + SPEED_COUNTS * measure_kick(rig, motion, c, &root);
+}
+
 ff_status ff_loop_close(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c,
-                        const ff_steady_root *root, ff_example *out, ff_error *error)
+                        const ff_steady_root *root, double first, ff_example *out, ff_error *error)
 {
     double period = c->length * motion->frame_time, rate = 1.0 / motion->frame_time;
     ff_status status = ff_example_alloc(out, (int)floor(period * FF_PACK_RATE + 0.5), error);
     if (status != FF_OK) return status;
     gap missing = measure_gap(rig, motion, c, root);
-    fill_poses(motion, c, root, &missing, out);
+    measure_closing(rig, motion, c, root, &missing, &out->loop);
+    out->loop.cut_kick = (float)measure_kick(rig, motion, c, root);
+    out->loop.cut = (float)(first > 0.0 ? 1.0 - first : 0.0);
+    fill_poses(motion, c, root, &missing, first, out);
     ff_example_level_head(out);
     ff_pack_example *record = &out->record;
     record->period = (float)period;

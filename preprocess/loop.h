@@ -26,8 +26,16 @@ ff_steady_root ff_steady_root_still(const ff_motion *motion, const ff_stretch *s
 double ff_loop_seam(const ff_rig *rig, const ff_motion *motion, const ff_stretch *stretch,
                     const ff_steady_root *root);
 
-/* The closed loop: poses near 60 Hz, period, rates, seam and wander; keys and feet are still to be found. */
+/* What a cut costs (m): the seam, half of the largest gap of a joint (what closing will move it by), and a tenth of a
+ * second of the difference of velocities. Frames to both sides of the stretch are looked at. */
+double ff_loop_cost(const ff_rig *rig, const ff_motion *motion, const ff_stretch *stretch);
+
+/* The closed loop: poses near 60 Hz, period, rates, seam, wander and what closing did. Frame 0 is where the share
+ * `first` of the stretch is. Keys, feet and the contact to compare the cut with are still to be found. */
 ff_status ff_loop_close(const ff_rig *rig, const ff_motion *motion, const ff_stretch *stretch,
-                        const ff_steady_root *root, ff_example *out, ff_error *error);
+                        const ff_steady_root *root, double first, ff_example *out, ff_error *error);
+
+/* Fill example->loop.contact_kick. Keys must be set. */
+void ff_loop_find_contact_kick(const ff_rig *rig, ff_example *example);
 
 #endif

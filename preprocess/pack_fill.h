@@ -18,4 +18,8 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
                            const ff_build_clip *clips, int count, const ff_build_clip *skipped,
                            int skipped_count, const ff_example_set *set, ff_error *error);
 
+/* How they were closed, when to pass from one to another, the semi-procedural clip and the limits of sharp turns; after
+ * the examples. */
+ff_status ff_pack_add_gait(ff_pack_content *content, const ff_example_set *set, ff_error *error);
+
 #endif

@@ -60,6 +60,15 @@ static json_t *skipped_entry(const ff_build_clip *clip)
                      (int)clip->error.column, "why", clip->error.message);
 }
 
+static json_t *left_out_entries(const ff_example_set *set)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < set->left_out_count; ++i)
+        json_array_append_new(
+            list, json_pack("{s:s, s:s}", "name", set->left_out[i].name, "why", set->left_out[i].why));
+    return list;
+}
+
 ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *settings,
                            const ff_build_clip *clips, int count, const ff_build_clip *skipped,
                            int skipped_count, const ff_example_set *set, ff_error *error)
@@ -69,10 +78,11 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
         json_array_append_new(clip_list, clip_entry(&clips[i]));
     for (int i = 0; i < skipped_count; ++i)
         json_array_append_new(skipped_list, skipped_entry(&skipped[i]));
-    json_t *root = json_pack("{s:s, s:s, s:{s:f, s:b}, s:{s:i, s:i}, s:o, s:o}", "tool", "footfall-pack",
-                             "version", FF_VERSION, "settings", "rate", settings->rate, "strict",
-                             settings->strict ? 1 : 0, "examples", "base_subject", set->base, "candidates",
-                             set->candidates, "clips", clip_list, "skipped", skipped_list);
+    json_t *root =
+        json_pack("{s:s, s:s, s:{s:f, s:b}, s:{s:i, s:i, s:o}, s:o, s:o}", "tool", "footfall-pack", "version",
+                  FF_VERSION, "settings", "rate", settings->rate, "strict", settings->strict ? 1 : 0,
+                  "examples", "base_subject", set->base, "candidates", set->candidates, "left_out",
+                  left_out_entries(set), "clips", clip_list, "skipped", skipped_list);
     char *text = root ? json_dumps(root, JSON_INDENT(1)) : NULL;
     json_decref(root);
     ff_status status = text ? ff_pack_set_meta(content, text, error)

@@ -30,6 +30,12 @@ static const struct section_kind {
     {FF_SECTION_SIMPLICES, sizeof(ff_pack_simplex), offsetof(ff_pack_content, simplices)},
     {FF_SECTION_HULL, sizeof(ff_pack_point2), offsetof(ff_pack_content, hull)},
     {FF_SECTION_TRACKS, sizeof(ff_pack_track), offsetof(ff_pack_content, tracks)},
+    {FF_SECTION_LOOPS, sizeof(ff_pack_loop), offsetof(ff_pack_content, loops)},
+    {FF_SECTION_CORRESPONDENCES, sizeof(ff_pack_correspondence), offsetof(ff_pack_content, correspondences)},
+    {FF_SECTION_PAIRS, sizeof(ff_pack_pair), offsetof(ff_pack_content, pairs)},
+    {FF_SECTION_GAIT, sizeof(ff_pack_gait), offsetof(ff_pack_content, gait)},
+    {FF_SECTION_GAIT_PATH, sizeof(ff_pack_gait_path), offsetof(ff_pack_content, gait_path)},
+    {FF_SECTION_SHARP, sizeof(ff_pack_sharp), offsetof(ff_pack_content, sharp)},
 };
 
 static ff_array *section_array(ff_pack_content *content, int kind)

@@ -40,6 +40,12 @@ enum {
     SIMPLICES,
     HULL,
     TRACKS,
+    LOOPS,
+    CORRESPONDENCES,
+    PAIRS,
+    GAIT,
+    GAIT_PATH,
+    SHARP,
     KIND_COUNT
 };
 _Static_assert(KIND_COUNT == FF_PACK_SECTION_COUNT, "a kind of section is missing here");
@@ -61,6 +67,12 @@ static const section_kind kinds[KIND_COUNT] = {
     [SIMPLICES] = {FF_SECTION_SIMPLICES, sizeof(ff_pack_simplex), 0, 0},
     [HULL] = {FF_SECTION_HULL, sizeof(ff_pack_point2), 0, 0},
     [TRACKS] = {FF_SECTION_TRACKS, sizeof(ff_pack_track), 0, 0},
+    [LOOPS] = {FF_SECTION_LOOPS, sizeof(ff_pack_loop), 0, 0},
+    [CORRESPONDENCES] = {FF_SECTION_CORRESPONDENCES, sizeof(ff_pack_correspondence), 0, 0},
+    [PAIRS] = {FF_SECTION_PAIRS, sizeof(ff_pack_pair), 0, 0},
+    [GAIT] = {FF_SECTION_GAIT, sizeof(ff_pack_gait), 0, 0},
+    [GAIT_PATH] = {FF_SECTION_GAIT_PATH, sizeof(ff_pack_gait_path), 0, 0},
+    [SHARP] = {FF_SECTION_SHARP, sizeof(ff_pack_sharp), 0, 0},
 };
 
 typedef struct section_view {
@@ -207,6 +219,18 @@ static void take_views(ff_pack *pack, const section_view *views)
     pack->hull_count = (uint32_t)views[HULL].count;
     pack->tracks = (const ff_pack_track *)(const void *)views[TRACKS].data;
     pack->track_count = (uint32_t)views[TRACKS].count;
+    pack->loops = (const ff_pack_loop *)(const void *)views[LOOPS].data;
+    pack->loop_count = (uint32_t)views[LOOPS].count;
+    pack->correspondences = (const ff_pack_correspondence *)(const void *)views[CORRESPONDENCES].data;
+    pack->correspondence_count = (uint32_t)views[CORRESPONDENCES].count;
+    pack->pairs = (const ff_pack_pair *)(const void *)views[PAIRS].data;
+    pack->pair_count = (uint32_t)views[PAIRS].count;
+    pack->gait = (const ff_pack_gait *)(const void *)views[GAIT].data;
+    pack->gait_count = (uint32_t)views[GAIT].count;
+    pack->gait_path = (const ff_pack_gait_path *)(const void *)views[GAIT_PATH].data;
+    pack->gait_path_count = (uint32_t)views[GAIT_PATH].count;
+    pack->sharp = (const ff_pack_sharp *)(const void *)views[SHARP].data;
+    pack->sharp_count = (uint32_t)views[SHARP].count;
 }
 
 static ff_status read_pack(ff_pack *pack, ff_error *error)

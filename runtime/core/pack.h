@@ -42,6 +42,18 @@ struct ff_pack {
     uint32_t hull_count;
     const ff_pack_track *tracks; /* NULL when the pack has none */
     uint32_t track_count;
+    const ff_pack_loop *loops;
+    uint32_t loop_count; /* example_count or 0 */
+    const ff_pack_correspondence *correspondences;
+    uint32_t correspondence_count;
+    const ff_pack_pair *pairs;
+    uint32_t pair_count;
+    const ff_pack_gait *gait;
+    uint32_t gait_count; /* 1 or 0 */
+    const ff_pack_gait_path *gait_path;
+    uint32_t gait_path_count; /* FF_GAIT_SAMPLES or 0, as gait_count */
+    const ff_pack_sharp *sharp;
+    uint32_t sharp_count;
 };
 
 static inline const char *ff_pack_string(const ff_pack *pack, uint32_t name)

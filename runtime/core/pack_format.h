@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #define FF_PACK_MAGIC 0x4b434150464f4f46u /* "FOOFPACK" read as a little-endian u64 */
-#define FF_PACK_VERSION 1u
+#define FF_PACK_VERSION 2u
 #define FF_PACK_ALIGN 64u
 #define FF_PACK_MAX_JOINTS 64u
 #define FF_PACK_RATE 60.0 /* Hz, poses of clips; examples are near it (a whole number of frames per cycle) */
@@ -35,8 +35,14 @@ enum {
     FF_SECTION_HULL = FF_TAG('H', 'U', 'L', 'L'),      /* ff_pack_point2, counter-clockwise in (f, l) */
     FF_SECTION_TRACKS =
         FF_TAG('T', 'R', 'C', 'K'), /* ff_pack_track: per clip frame, left then right; optional */
+    FF_SECTION_LOOPS = FF_TAG('L', 'O', 'O', 'P'),           /* ff_pack_loop: one per example, or none */
+    FF_SECTION_CORRESPONDENCES = FF_TAG('C', 'O', 'R', 'R'), /* ff_pack_correspondence */
+    FF_SECTION_PAIRS = FF_TAG('P', 'A', 'I', 'R'),           /* ff_pack_pair */
+    FF_SECTION_GAIT = FF_TAG('G', 'A', 'I', 'T'),            /* ff_pack_gait: one, or none */
+    FF_SECTION_GAIT_PATH = FF_TAG('G', 'P', 'T', 'H'),       /* ff_pack_gait_path: FF_GAIT_SAMPLES, or none */
+    FF_SECTION_SHARP = FF_TAG('S', 'H', 'R', 'P'),           /* ff_pack_sharp */
 };
-#define FF_PACK_SECTION_COUNT 16
+#define FF_PACK_SECTION_COUNT 22
 
 typedef struct ff_pack_header {
     uint64_t magic;
@@ -220,5 +226,75 @@ typedef struct ff_pack_track {
 typedef struct ff_pack_point2 {
     float f, l; /* m/s, agent frame */
 } ff_pack_point2;
+
+/* How an example was closed to a loop. */
+typedef struct ff_pack_loop {
+    float cut;      /* phase at which the clip was cut, [0, 1) */
+    float jump;     /* m, of any joint from the last to the first pose, after closing */
+    float moved;    /* m, the furthest that closing moved any joint */
+    float cut_kick; /* m/s, mean difference of the joints' velocities at the end from those at the start */
+    float contact_kick; /* m/s, their change over the foot contact further from the cut; 0: standing */
+} ff_pack_loop;
+
+/* When a body may pass from one example to another, or to the semi-procedural clip at the example's own rates
+ * (to = FF_CORRESPOND_GAIT), or back: times at which their poses agree (FbCrowd 5.1 and 10; algorithms A.12). from < to;
+ * in order of from, then of to. */
+#define FF_CORRESPOND_GAIT 0xffffffffu
+enum { FF_CORRESPOND_KEYS = 1 }; /* the same events of the same foot, for want of enough minima */
+typedef struct ff_pack_correspondence {
+    uint32_t from, to; /* examples */
+    uint32_t first_pair, pair_count;
+    uint32_t flags;
+    float wait[2]; /* s, longest wait for the next pair in either clip, at its own pace */
+    float mean;    /* m, mean distance over the whole cycle along the warp through the pairs */
+} ff_pack_correspondence;
+
+/* One pair, in order of phase[0]; phase[1] advances once around with it. The pose of `to`, moved by shift (forward,
+ * left) and turned by turn in the root frame of `from`, lies best on the pose of `from`. */
+typedef struct ff_pack_pair {
+    float phase[2]; /* [0, 1) */
+    float distance; /* m, of the windows of 0.3 s, weighted (Kovar et al. 2002) */
+    float rms;      /* m, root mean square over the joints at the pair itself */
+    float turn;     /* rad */
+    float shift[2]; /* m */
+} ff_pack_pair;
+
+/* The semi-procedural clip: one walking example, made the same on both sides and scaled to other rates (runtime/core/
+ * gait_model.h). Laws are fitted to the pack's captured straight walks; each is exact at the clip's own speed. */
+enum { FF_GAIT_LAW_LIFT, FF_GAIT_LAW_PITCH, FF_GAIT_LAW_BOB, FF_GAIT_LAW_SWAY, FF_GAIT_LAW_COUNT };
+typedef struct ff_pack_gait {
+    uint32_t example;    /* whose trunk, arms and knees it has */
+    uint32_t walks;      /* how many examples the laws were fitted to */
+    float speed, period; /* m/s, s: of the clip */
+    float stance;        /* share of the cycle from a foot's contact to its toe-off, at the clip's speed */
+    float ball_rest;     /* m */
+    float centre[3];     /* ball in mid stance: forward, to its own side (m), toe-out (rad) */
+    float stand[3];      /* the same of standing feet */
+    float cadence;       /* period = clip's * (speed / clip's)^-cadence */
+    float stance_slope;  /* stance = clip's + slope * (speed - clip's), per m/s */
+    float law[FF_GAIT_LAW_COUNT];           /* amplitude = clip's * (1 + law * (step ratio - 1)) */
+    float residual[FF_GAIT_LAW_COUNT];      /* root mean square, of the amplitude as a share of the clip's */
+    float period_residual, stance_residual; /* s; share of the cycle */
+    float ball_residual
+        [3]; /* m, root mean square of the model's ball path against the walks': forward, left, up */
+} ff_pack_gait;
+
+/* Over one cycle from a foot's own contact; hips: from the left contact, the other half is its mirror image. */
+#define FF_GAIT_SAMPLES 64
+typedef struct ff_pack_gait_path {
+    float ahead;   /* cycles' worth of root motion that the ball is ahead of its place in mid stance */
+    float side;    /* m, further to its own side than in mid stance */
+    float lift;    /* m, of the ball over its rest height */
+    float yaw;     /* rad, outward, more than in mid stance */
+    float pitch;   /* rad, toes up + */
+    float hips[3]; /* forward, left (m), height over its mean (m) */
+} ff_pack_gait_path;
+
+/* Half-plane of velocities that stay allowed to who wants to turn round to one side: left of the line through point
+ * along direction, in the agent's frame (algorithms A.11, step 5). */
+typedef struct ff_pack_sharp {
+    float point[2], direction[2]; /* m/s; unit */
+    int32_t side;                 /* 1 left, -1 right */
+} ff_pack_sharp;
 
 #endif

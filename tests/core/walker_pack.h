@@ -246,6 +246,26 @@ static inline void ff_walker_clip(ff_pack_content *content)
     ff_walker_push(&content->colliders, FF_COLLIDER_COUNT, sizeof(ff_pack_collider));
 }
 
+/* Loops, one correspondence of two pairs and one with the semi-procedural clip, whose numbers are plausible. */
+static inline void ff_walker_gait(ff_pack_content *content)
+{
+    ff_walker_push(&content->loops, content->examples.count, sizeof(ff_pack_loop));
+    ff_pack_pair *pair = ff_walker_push(&content->pairs, 3, sizeof *pair);
+    pair[0].phase[0] = 0.1f, pair[0].phase[1] = 0.9f;
+    pair[1].phase[0] = 0.6f, pair[1].phase[1] = 0.4f;
+    pair[2].phase[0] = 0.5f, pair[2].phase[1] = 0.5f;
+    ff_pack_correspondence *c = ff_walker_push(&content->correspondences, 2, sizeof *c);
+    c[0] = (ff_pack_correspondence){.from = 0, .to = 1, .pair_count = 2, .wait = {0.5f, 0.5f}};
+    c[1] = (ff_pack_correspondence){
+        .from = 0, .to = FF_CORRESPOND_GAIT, .first_pair = 2, .pair_count = 1, .wait = {1.0f, 1.0f}};
+    ff_pack_gait *gait = ff_walker_push(&content->gait, 1, sizeof *gait);
+    *gait = (ff_pack_gait){.example = 1, .speed = 1.2f, .period = 1.1f, .stance = 0.62f, .ball_rest = 0.02f};
+    ff_walker_push(&content->gait_path, FF_GAIT_SAMPLES, sizeof(ff_pack_gait_path));
+    ff_pack_sharp *sharp = ff_walker_push(&content->sharp, 2, sizeof *sharp);
+    sharp[0] = (ff_pack_sharp){{0.0f, 0.3f}, {-1.0f, 0.0f}, 1};
+    sharp[1] = (ff_pack_sharp){{0.0f, -0.3f}, {1.0f, 0.0f}, -1};
+}
+
 static inline void ff_walker_content(ff_pack_content *content, const ff_walker_grid *grid)
 {
     memset(content, 0, sizeof *content);
@@ -264,6 +284,7 @@ static inline void ff_walker_content(ff_pack_content *content, const ff_walker_g
     static const ff_pack_point2 hull[4] = {{-0.8f, -0.5f}, {1.8f, -0.5f}, {1.8f, 0.5f}, {-0.8f, 0.5f}};
     memcpy(ff_walker_push(&content->hull, 4, sizeof *hull), hull, sizeof hull);
     ff_walker_push(&content->tracks, 2 * 2, sizeof(ff_pack_track));
+    ff_walker_gait(content);
     if (ff_pack_set_meta(content, "{}", NULL) != FF_OK) abort();
 }
 
