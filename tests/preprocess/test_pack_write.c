@@ -44,7 +44,7 @@ static void records_have_no_hidden_padding(void **state)
     assert_int_equal(sizeof(ff_pack_loop), 5 * 4);
     assert_int_equal(sizeof(ff_pack_correspondence), 8 * 4);
     assert_int_equal(sizeof(ff_pack_pair), 7 * 4);
-    assert_int_equal(sizeof(ff_pack_gait), 30 * 4);
+    assert_int_equal(sizeof(ff_pack_gait), 27 * 4);
     assert_int_equal(sizeof(ff_pack_gait_path), 8 * 4);
     assert_int_equal(sizeof(ff_pack_sharp), 5 * 4);
 }
