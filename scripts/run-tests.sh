@@ -5,7 +5,7 @@
 #
 # BUILD is the folder the programs under test were built in (FF_BUILD for the program). PROGRAM is a cmocka test, a
 # script of tests/e2e, which speaks the same words, or a fuzzer (fuzz_*): it goes over its saved seeds in
-# tests/fuzz/seeds and then FF_FUZZ_RUNS (4000) runs further. Prints one line per program, everything a failed one
+# tests/fuzz/seeds and then FF_FUZZ_RUNS (20000) runs further. Prints one line per program, everything a failed one
 # said, and every line that begins with SKIPPED. The last line is the total: "N passed, N failed[, N skipped]".
 
 log_of() { # BUILD:PROGRAM
@@ -24,7 +24,7 @@ fuzz() {
     mkdir -p "$found"
     grown=$(mktemp -d)
     # Finds are kept in $found; what merely grows the corpus is thrown away, so every run starts from the seeds.
-    "$1" -seed="${FF_FUZZ_SEED:-1}" -runs="${FF_FUZZ_RUNS:-4000}" -timeout=20 -rss_limit_mb=3000 -print_final_stats=1 \
+    "$1" -seed="${FF_FUZZ_SEED:-1}" -runs="${FF_FUZZ_RUNS:-20000}" -timeout=20 -rss_limit_mb=3000 -print_final_stats=1 \
         -verbosity=0 -artifact_prefix="$found/" "$grown" $seeds
     status=$?
     rm -rf "$grown"
