@@ -44,6 +44,13 @@ one_thread_and_two_give_the_same_bits() {
     cmp "$work/one/crowd.csv" "$work/two/crowd.csv" && cmp "$work/one/agent-0.bvh" "$work/two/agent-0.bvh" &&
         cmp "$work/one/crowd.glb" "$work/two/crowd.glb"
 }
+three_thousand_steps_are_the_same_on_any_threads() {
+    run 0 "$FF_BUILD/tests/e2e/wander" "$builtin" 24 3000 1 && mv "$work/out" "$work/hashes" || return 1
+    [ "$(sort -u -k 2 "$work/hashes" | wc -l)" -eq 30 ] || { echo "the crowd stands still" && return 1; }
+    for threads in 2 3 0; do
+        run 0 "$FF_BUILD/tests/e2e/wander" "$builtin" 24 3000 "$threads" && cmp "$work/hashes" "$work/out" || return 1
+    done
+}
 another_seed_is_another_run() {
     run_scene other --seconds 5 --seed 77 && [ "$(hash_of one)" != "$(hash_of other)" ]
 }
@@ -97,6 +104,7 @@ test_that "a report is one page that needs nothing else" a_report_is_one_page_th
 test_that "a run writes every file" a_run_writes_every_file
 test_that "what a run wrote is read back" what_a_run_wrote_is_read_back
 test_that "one thread and two give the same bits" one_thread_and_two_give_the_same_bits
+test_that "3,000 steps are the same on any threads" three_thousand_steps_are_the_same_on_any_threads
 test_that "another seed is another run" another_seed_is_another_run
 test_that "quiet is quiet and JSON is for machines" quiet_is_quiet_and_json_is_for_machines
 test_that "bad scenes are refused with their line" bad_scenes_are_refused_with_their_line
