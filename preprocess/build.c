@@ -13,7 +13,7 @@
 
 ff_build_settings ff_build_settings_default(void)
 {
-    return (ff_build_settings){.threads = ff_processor_count(), .rate = FF_PACK_RATE};
+    return (ff_build_settings){.threads = ff_processor_count(), .rate = FF_PACK_RATE, .clean = true};
 }
 
 void ff_build_result_free(ff_build_result *result)
@@ -95,7 +95,7 @@ static void load_one(void *context, uint32_t index)
 static void cut_one(void *context, uint32_t index)
 {
     build *b = context;
-    ff_build_clip_cut(&b->clips[index], &b->rig);
+    ff_build_clip_cut(&b->clips[index], &b->rig, b->settings->clean);
     ff_progress_step(b->progress, b->clips[index].source);
 }
 

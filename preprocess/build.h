@@ -9,6 +9,7 @@ typedef struct ff_build_settings {
     bool strict;      /* a bad clip stops the build instead of being left out */
     bool quiet;       /* no progress on stderr */
     uint32_t threads; /* the result does not depend on it */
+    bool clean;       /* planted feet are made to stand still (clean.h); on by default */
     double rate;      /* Hz, of the clips' pose streams */
 } ff_build_settings;
 

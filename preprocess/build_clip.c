@@ -118,13 +118,18 @@ static bool has_tag(const char *tags, const char *word)
     return false;
 }
 
-void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig)
+void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig, bool clean)
 {
     const ff_plants *plants = &clip->plants;
     int mode = mode_tag(clip->mode), rest = clip->clip.rest_frames;
     bool walks = mode != FF_MODE_JUMP && mode != FF_MODE_CLIMB && mode != FF_MODE_CROUCH &&
                  !has_tag(clip->tags, FF_TAG_NO_EXAMPLE);
     ff_status status = ff_motion_from_clip(rig, &clip->clip, plants, &clip->motion, &clip->error);
+    if (status == FF_OK && clean) {
+        status = ff_motion_clean(rig, &clip->motion, plants, &clip->cleaned, &clip->error);
+        if (status != FF_OK)
+            ff_error_in_file(&clip->error, clip->clip.source ? clip->clip.source : clip->source);
+    }
     if (status == FF_OK)
         status = ff_actions_cut(rig, &clip->motion, plants, mode, &clip->actions, &clip->error);
     if (status == FF_OK && walks)

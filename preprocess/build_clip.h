@@ -3,6 +3,7 @@
 #define FF_BUILD_CLIP_H
 
 #include "mocap/catalogue.h"
+#include "preprocess/clean.h"
 #include "preprocess/cycles.h"
 #include "preprocess/steps.h"
 
@@ -25,6 +26,7 @@ typedef struct ff_build_clip {
     ff_breaks repaired; /* what was broken in the file; what could not be put back is in plants.breaks too */
     ff_plants plants;
     ff_motion motion;
+    ff_clean_report cleaned; /* all 0 when it was not asked for */
     ff_actions actions;
     ff_cycles cycles;
 } ff_build_clip;
@@ -32,8 +34,8 @@ typedef struct ff_build_clip {
 /* Stage 1: read the file (or generate built-in clip index), trim, find plants. */
 void ff_build_clip_load(ff_build_clip *clip, const ff_catalogue_entry *entry);
 void ff_build_clip_generate(ff_build_clip *clip, int index);
-/* Stage 2: onto the rig, actions and gait cycles. */
-void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig);
+/* Stage 2: onto the rig, feet cleaned up if clean is set, actions and gait cycles. */
+void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig, bool clean);
 
 void ff_build_clip_free(ff_build_clip *clip);
 

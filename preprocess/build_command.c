@@ -75,7 +75,7 @@ int ff_build_command(int argc, char **argv)
     ff_build_settings settings = ff_build_settings_default();
     const char *path = NULL;
     int64_t threads = settings.threads;
-    bool json = false;
+    bool json = false, raw = false;
     ff_option options[] = {
         {.name = "--out",
          .alias = "-o",
@@ -97,6 +97,7 @@ int ff_build_command(int argc, char **argv)
          .number = &settings.rate,
          .low = 10,
          .high = 240},
+        {.name = "--no-clean", .help = "leave feet sliding as they were captured", .flag = &raw},
         {.name = "--json", .help = "say on stdout what was built as JSON", .flag = &json},
         {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &settings.quiet},
         {0}};
@@ -115,6 +116,7 @@ int ff_build_command(int argc, char **argv)
     int result = ff_command_parse(&command, argc, argv, &operands);
     if (result < 0 && !path) result = ff_command_misuse(&command, "--out FILE (-o) is missing");
     settings.threads = (uint32_t)threads;
+    settings.clean = !raw;
     if (result < 0) result = build_and_write(&operands, &settings, path, json);
     return result;
 }

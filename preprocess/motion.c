@@ -196,6 +196,18 @@ void ff_motion_sample(const ff_motion *motion, double frame, ff_vec3 *root, ff_v
         rotations[r] = ff_quat_nlerp(from[r], to[r], t);
 }
 
+ff_status ff_motion_copy(const ff_motion *motion, ff_motion *out, ff_error *error)
+{
+    ff_status status = motion_alloc(out, motion->frame_count, motion->frame_time, error);
+    if (status != FF_OK) return status;
+    size_t n = (size_t)motion->frame_count;
+    out->scale = motion->scale;
+    memcpy(out->root, motion->root, n * sizeof *out->root);
+    memcpy(out->hips, motion->hips, n * sizeof *out->hips);
+    memcpy(out->rotations, motion->rotations, n * FF_ROLE_JOINT_COUNT * sizeof *out->rotations);
+    return FF_OK;
+}
+
 ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error)
 {
     ff_status status = motion_alloc(out, motion->frame_count, motion->frame_time, error);

@@ -51,6 +51,8 @@ void ff_motion_pose(const ff_rig *rig, const ff_motion *motion, int frame, ff_ve
 void ff_motion_sample(const ff_motion *motion, double frame, ff_vec3 *root, ff_vec3 *hips,
                       ff_quat *rotations);
 
+ff_status ff_motion_copy(const ff_motion *motion, ff_motion *out, ff_error *error);
+
 /* The same motion with left and right exchanged (algorithms A.8). */
 ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error);
 

@@ -38,7 +38,28 @@ static json_t *breaks_of(const ff_build_clip *clip)
     return list;
 }
 
-static json_t *clip_entry(const ff_build_clip *clip)
+static json_t *change_entry(ff_change change, double scale)
+{
+    return json_pack("[f, f]", scale * change.before, scale * change.after);
+}
+
+/* What the clean-up did: pairs are before and after; mm and degrees. */
+static json_t *clean_entry(const ff_clean_report *r)
+{
+    double mm = 1e3, deg = 1.0 / FF_DEG;
+    return json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:f, s:s, s:i, s:f, s:f, s:f, s:f, s:i, s:i}",
+                     "was_clean", r->was_clean ? 1 : 0, "pin_median_mm", change_entry(r->pin_median, mm),
+                     "pin_worst_mm", change_entry(r->pin_worst, mm), "skate_mm_per_s",
+                     change_entry(r->skate, mm), "floor_dip_mm", change_entry(r->floor_dip, mm),
+                     "knee_least_deg", change_entry(r->knee_least, deg), "turned_mean_deg",
+                     deg * r->turn_mean, "turned_95_deg", deg * r->turn_most_95, "turned_most_deg",
+                     deg * r->turn_most, "turned_most_joint", ff_role_name((ff_role)r->turn_role),
+                     "turned_most_frame", r->turn_frame, "hips_moved_mean_mm", mm * r->shift_mean,
+                     "hips_moved_most_mm", mm * r->shift_most, "acceleration_ratio", r->acceleration,
+                     "residual_mm", mm * r->residual, "solves", r->solves, "unconverged", r->unconverged);
+}
+
+static json_t *clip_entry(const ff_build_clip *clip, const ff_build_settings *settings)
 {
     char hash[20];
     snprintf(hash, sizeof hash, "%016" PRIx64, clip->hash);
@@ -49,6 +70,7 @@ static json_t *clip_entry(const ff_build_clip *clip)
                   "mirror", clip->mirror ? 1 : 0, "subject", clip->subject, "unit_m", clip->clip.unit_m,
                   "frames", clip->clip.frame_count, "rejected", rejections_of(clip));
     if (entry && clip->repaired.count > 0) json_object_set_new(entry, "broken", breaks_of(clip));
+    if (entry && settings->clean) json_object_set_new(entry, "clean", clean_entry(&clip->cleaned));
     if (entry && clip->clip.warning_count > 0)
         json_object_set_new(entry, "warning", json_string(clip->clip.warning));
     return entry;
@@ -75,14 +97,14 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
 {
     json_t *clip_list = json_array(), *skipped_list = json_array();
     for (int i = 0; i < count; ++i)
-        json_array_append_new(clip_list, clip_entry(&clips[i]));
+        json_array_append_new(clip_list, clip_entry(&clips[i], settings));
     for (int i = 0; i < skipped_count; ++i)
         json_array_append_new(skipped_list, skipped_entry(&skipped[i]));
-    json_t *root =
-        json_pack("{s:s, s:s, s:{s:f, s:b}, s:{s:i, s:i, s:o}, s:o, s:o}", "tool", "footfall-pack", "version",
-                  FF_VERSION, "settings", "rate", settings->rate, "strict", settings->strict ? 1 : 0,
-                  "examples", "base_subject", set->base, "candidates", set->candidates, "left_out",
-                  left_out_entries(set), "clips", clip_list, "skipped", skipped_list);
+    json_t *root = json_pack("{s:s, s:s, s:{s:f, s:b, s:b}, s:{s:i, s:i, s:o}, s:o, s:o}", "tool",
+                             "footfall-pack", "version", FF_VERSION, "settings", "rate", settings->rate,
+                             "strict", settings->strict ? 1 : 0, "clean", settings->clean ? 1 : 0, "examples",
+                             "base_subject", set->base, "candidates", set->candidates, "left_out",
+                             left_out_entries(set), "clips", clip_list, "skipped", skipped_list);
     char *text = root ? json_dumps(root, JSON_INDENT(1)) : NULL;
     json_decref(root);
     ff_status status = text ? ff_pack_set_meta(content, text, error)

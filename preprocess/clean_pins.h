@@ -1,0 +1,32 @@
+/* clean_pins.h - where planted feet are to stand, and how firmly in which frame. */
+#ifndef FF_CLEAN_PINS_H
+#define FF_CLEAN_PINS_H
+
+#include "preprocess/clean_problem.h"
+
+/* One plant's share in the clean-up. Heel and ball stand still from first to last frame, both inclusive; before, the
+ * foot comes down over its heel, after, it rolls off over its ball. */
+typedef struct ff_clean_pin {
+    int foot;
+    int start, first, last, end; /* frames: contact, flat, still flat, toe-off */
+} ff_clean_pin;
+
+typedef struct ff_clean_pins {
+    ff_clean_pin *items;    /* by first frame */
+    ff_clean_plant *plants; /* the place of each */
+    int count;
+} ff_clean_pins;
+
+/* Pins of a motion that stands on its floor: one for each plant with a flat stretch, at the ball's captured place times
+ * the motion's scale (cleanup study, section 5: anything else shortens steps). */
+ff_status ff_clean_pins_find(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                             ff_clean_pins *out, ff_error *error);
+void ff_clean_pins_free(ff_clean_pins *pins);
+
+/* How much heel and ball are pinned, 0 to 1 (cleanup study, section 3.5). */
+void ff_clean_pin_weights(const ff_clean_pin *pin, int frame, double frame_time, double *heel, double *ball);
+
+/* Where heel and ball of a pinned foot stand. */
+void ff_clean_plant_places(const ff_rig *rig, const ff_clean_plant *plant, ff_vec3 *heel, ff_vec3 *ball);
+
+#endif
