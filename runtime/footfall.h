@@ -16,6 +16,7 @@
 #ifndef FOOTFALL_H
 #define FOOTFALL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -111,17 +112,62 @@ typedef struct ff_agent {
 typedef void ff_parallel_for(void *pool, uint32_t count, void (*function)(void *context, uint32_t index),
                              void *context);
 
+/* How agents find their way past each other. */
+typedef enum ff_navigation {
+    FF_NAVIGATION_CROWD, /* of an agent: as its crowd's definition says. Of a crowd: MCN */
+    FF_NAVIGATION_MCN,   /* motion-constrained navigation (FbCrowd, section 4) */
+    FF_NAVIGATION_ORCA,  /* baseline: reciprocal velocity obstacles alone (van den Berg et al. 2011) */
+    FF_NAVIGATION_SF,    /* baseline: power-law forces alone (Karamouzas et al. 2014) */
+} ff_navigation;
+
+/* Where the body faces while navigation asks for a velocity. */
+typedef enum ff_facing {
+    FF_FACING_HALFWAY, /* between preferred velocity and command, unless these differ by more than 90 degrees */
+    FF_FACING_STRAFE,    /* FbCrowd 4.5: where one would like to go, for at most a second of side-stepping */
+    FF_FACING_PREFERRED, /* where one would like to go */
+    FF_FACING_COMMAND,   /* where one goes */
+} ff_facing;
+
+/* The parts of motion-constrained navigation, each with a switch (runtime/README.md says where each comes from). */
+typedef struct ff_mcn_def {
+    bool hull;       /* velocities outside the hull of the walking examples are forbidden (eq 2-5) */
+    bool sharp_turn; /* turning round by more than 90 degrees is done slowly */
+    bool stance;     /* nobody steps across the standing foot (eq 6-8) */
+    bool forces;     /* the preferred velocity gives way to power-law forces (eq 9, 11) */
+    bool density;    /* and slows down where it is dense */
+    bool weighted;   /* where not all can be avoided, those met sooner count more; else all alike */
+    bool gradual;    /* commands change by no more than 2 m/s2 where that leaves a way */
+    bool back_pedal; /* walking backwards is allowed, where the pack can (not in the paper); default off */
+    bool lean;       /* who meets head on, nearly, passes on the convention's side */
+    bool progress;   /* who gets no nearer tries a way round, or settles beside a taken goal */
+    bool make_way;   /* who stands steps aside for others */
+    ff_facing facing;
+    double padding;    /* m, added to every radius; default 0.02 */
+    double prediction; /* s, ahead of which pairs are looked at, about the lag of a body; default 0.3 */
+} ff_mcn_def;
+
+/* What the two baselines are given of it: nothing, by default. */
+typedef struct ff_baseline_def {
+    double keep_right; /* rad, as ff_crowd_def.keep_right */
+    double padding;    /* m */
+    bool
+        model_velocity; /* others see the body's rates instead of the displacement over a quarter of a second */
+} ff_baseline_def;
+
 typedef struct ff_crowd_def {
-    uint32_t max_agents;    /* hard cap; all memory is taken at creation */
-    uint32_t max_walls;     /* static segments */
-    double step;            /* s, fixed simulation step, > 0; default 1/30 */
-    uint64_t seed;          /* same seed and same calls give the same bits */
-    uint32_t threads;       /* own pool of this many threads; 1 = the caller's only. Ignored if tasks set */
-    ff_parallel_for *tasks; /* caller's scheduler, or NULL */
-    void *task_pool;        /* passed to tasks */
-    double keep_right;      /* rad, by which people turn aside for those they meet; default 0.30, negative =
+    uint32_t max_agents;      /* hard cap; all memory is taken at creation */
+    uint32_t max_walls;       /* static segments */
+    double step;              /* s, fixed simulation step, > 0; default 1/30 */
+    uint64_t seed;            /* same seed and same calls give the same bits */
+    uint32_t threads;         /* own pool of this many threads; 1 = the caller's only. Ignored if tasks set */
+    ff_parallel_for *tasks;   /* caller's scheduler, or NULL */
+    void *task_pool;          /* passed to tasks */
+    double keep_right;        /* rad, by which people turn aside for those they meet; default 0.30, negative =
                                to the left. 0 makes them meet head on and jam: a convention is needed */
-    uint32_t cookie;        /* set by ff_crowd_def_default(); leave it alone */
+    ff_navigation navigation; /* of agents that do not name their own */
+    ff_mcn_def mcn;
+    ff_baseline_def baseline;
+    uint32_t cookie; /* set by ff_crowd_def_default(); leave it alone */
 } ff_crowd_def;
 
 typedef struct ff_agent_def {
@@ -131,7 +177,8 @@ typedef struct ff_agent_def {
     double goal_tolerance;  /* m, default 0.5 */
     double preferred_speed; /* m/s, default 1.3 */
     double radius;          /* m, default 0.3 */
-    uint32_t cookie;        /* set by ff_agent_def_default() */
+    ff_navigation navigation;
+    uint32_t cookie; /* set by ff_agent_def_default() */
 } ff_agent_def;
 
 ff_crowd_def ff_crowd_def_default(void);

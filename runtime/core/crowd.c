@@ -24,6 +24,20 @@ ff_crowd_def ff_crowd_def_default(void)
                           .seed = 1,
                           .threads = 1,
                           .keep_right = 0.30,
+                          .navigation = FF_NAVIGATION_MCN,
+                          .mcn = {.hull = true,
+                                  .sharp_turn = true,
+                                  .stance = true,
+                                  .forces = true,
+                                  .density = true,
+                                  .weighted = true,
+                                  .gradual = true,
+                                  .lean = true,
+                                  .progress = true,
+                                  .make_way = true,
+                                  .facing = FF_FACING_HALFWAY,
+                                  .padding = 0.02,
+                                  .prediction = 0.3},
                           .cookie = CROWD_COOKIE};
 }
 
@@ -31,6 +45,37 @@ ff_agent_def ff_agent_def_default(void)
 {
     return (ff_agent_def){
         .goal_tolerance = 0.5, .preferred_speed = 1.3, .radius = 0.3, .cookie = AGENT_COOKIE};
+}
+
+static ff_status check_between(double value, double low, double high, const char *what, ff_error *error)
+{
+    if (value >= low && value <= high) return FF_OK;
+    return ff_fail(error, isfinite(value) ? FF_ERR_RANGE : FF_ERR_NOT_FINITE, "%s is %g; expected %g to %g",
+                   what, value, low, high);
+}
+
+static ff_status check_navigation(ff_navigation navigation, ff_error *error)
+{
+    if (navigation >= FF_NAVIGATION_CROWD && navigation <= FF_NAVIGATION_SF) return FF_OK;
+    return ff_fail(error, FF_ERR_RANGE, "navigation is %d; expected one of FF_NAVIGATION_*", (int)navigation);
+}
+
+static ff_status check_navigation_def(const ff_crowd_def *def, ff_error *error)
+{
+    ff_status status = check_navigation(def->navigation, error);
+    if (status == FF_OK)
+        status = check_between(def->keep_right, -0.5 * FF_PI, 0.5 * FF_PI, "keep_right (rad)", error);
+    if (status == FF_OK)
+        status = check_between(def->baseline.keep_right, -0.5 * FF_PI, 0.5 * FF_PI,
+                               "the baselines' keep_right (rad)", error);
+    if (status == FF_OK) status = check_between(def->mcn.padding, 0.0, 0.5, "padding", error);
+    if (status == FF_OK)
+        status = check_between(def->baseline.padding, 0.0, 0.5, "the baselines' padding", error);
+    if (status == FF_OK) status = check_between(def->mcn.prediction, 0.0, 1.0, "prediction", error);
+    if (status == FF_OK && (def->mcn.facing < FF_FACING_HALFWAY || def->mcn.facing > FF_FACING_COMMAND))
+        status =
+            ff_fail(error, FF_ERR_RANGE, "facing is %d; expected one of FF_FACING_*", (int)def->mcn.facing);
+    return status;
 }
 
 static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, ff_error *error)
@@ -48,9 +93,7 @@ static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, f
     if (!(def->step > 0.0 && def->step <= STEP_MAX))
         return ff_fail(error, FF_ERR_RANGE, "step is %g s; expected more than 0, at most %g", def->step,
                        STEP_MAX);
-    if (!(fabs(def->keep_right) <= 0.5 * FF_PI))
-        return ff_fail(error, FF_ERR_RANGE, "keep_right is %g rad; expected -1.57 to 1.57", def->keep_right);
-    return FF_OK;
+    return check_navigation_def(def, error);
 }
 
 /* Everything that is sized by the definition. */
@@ -91,6 +134,7 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     if (!crowd) return ff_fail(error, FF_ERR_NO_MEMORY, "a crowd");
     crowd->pack = pack;
     crowd->def = *def;
+    if (def->navigation == FF_NAVIGATION_CROWD) crowd->def.navigation = FF_NAVIGATION_MCN;
     crowd->gait_size = (ff_gait_size() + 7) & ~(size_t)7;
     ff_hull_make(pack->hull, pack->hull_count, &crowd->hull);
     status = ff_blend_space_create(pack, &crowd->space, error);
@@ -130,13 +174,6 @@ static ff_status check_place(ff_vec2 p, const char *what, ff_error *error)
                    what, p.a, p.b, PLANE_MAX);
 }
 
-static ff_status check_between(double value, double low, double high, const char *what, ff_error *error)
-{
-    if (value >= low && value <= high) return FF_OK;
-    return ff_fail(error, isfinite(value) ? FF_ERR_RANGE : FF_ERR_NOT_FINITE, "%s is %g; expected %g to %g",
-                   what, value, low, high);
-}
-
 static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
 {
     if (!def || def->cookie != AGENT_COOKIE)
@@ -149,6 +186,7 @@ static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
         status = check_between(def->goal_tolerance, TOLERANCE_MIN, 1e3, "goal_tolerance", error);
     if (status == FF_OK) status = check_between(def->preferred_speed, 0.1, 4.0, "preferred_speed", error);
     if (status == FF_OK) status = check_between(def->radius, 0.05, 1.5, "radius", error);
+    if (status == FF_OK) status = check_navigation(def->navigation, error);
     return status;
 }
 
@@ -174,7 +212,12 @@ ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent 
 
     ff_random random = {crowd->def.seed, slot, (uint64_t)generation << 8};
     double heading = ff_wrap(def->heading);
-    crowd->traits[slot] = (ff_traits){def->goal, def->goal_tolerance, def->preferred_speed, def->radius};
+    ff_navigation navigation = def->navigation ? def->navigation : crowd->def.navigation;
+    crowd->traits[slot] = (ff_traits){.goal = def->goal,
+                                      .goal_tolerance = def->goal_tolerance,
+                                      .preferred_speed = def->preferred_speed,
+                                      .radius = def->radius,
+                                      .navigation = navigation};
     crowd->minds[slot] = ff_mind_new(heading);
     crowd->bodies[slot] =
         (ff_body){.position = def->position, .heading = heading, .phase = ff_random_unit(&random)};

@@ -8,6 +8,8 @@
 
 #define CHUNK 16            /* agents per task */
 #define DOUBLE_SUPPORT 0.24 /* of a step */
+/* s: a low-pass as late as the displacement over 0.25 s (algorithms E, 9), for those who are not told the rates */
+#define SEEN_DELAY 0.125
 
 static double now(void)
 {
@@ -45,6 +47,11 @@ static void run_phase(ff_crowd *crowd, void (*agent)(ff_crowd *crowd, uint32_t i
 
 /* ------------------------------------------------------------------------------------------------- phases */
 
+static bool baseline(const ff_crowd *crowd, uint32_t slot)
+{
+    return crowd->traits[slot].navigation != FF_NAVIGATION_MCN;
+}
+
 static void snapshot(ff_crowd *crowd)
 {
     uint32_t count = 0;
@@ -52,10 +59,14 @@ static void snapshot(ff_crowd *crowd)
         if (!crowd->alive[slot]) continue;
         const ff_body *body = &crowd->bodies[slot];
         const ff_mind *mind = &crowd->minds[slot];
-        ff_vec2 velocity = ff_body_velocity(body);
+        bool outside = baseline(crowd, slot) && !crowd->def.baseline.model_velocity;
+        ff_vec2 velocity = outside ? mind->measured : ff_body_velocity(body);
+        /* Study 4, 4; ORCA alone knows no command but what is seen. */
+        ff_vec2 reference =
+            baseline(crowd, slot) ? velocity : ff_scale2(ff_add2(mind->command, velocity), 0.5);
         crowd->unsorted[count++] = (ff_seen){.position = body->position,
                                              .velocity = velocity,
-                                             .reference = ff_scale2(ff_add2(mind->command, velocity), 0.5),
+                                             .reference = reference,
                                              .preferred = mind->preferred,
                                              .goal = crowd->traits[slot].goal,
                                              .radius = crowd->traits[slot].radius,
@@ -67,16 +78,26 @@ static void snapshot(ff_crowd *crowd)
 
 static void find_neighbours(ff_crowd *crowd, uint32_t index)
 {
+    uint32_t slot = crowd->grid.seen[index].slot;
+    double padding = baseline(crowd, slot) ? crowd->def.baseline.padding : crowd->def.mcn.padding;
     crowd->neighbour_count[index] =
-        ff_grid_neighbours(&crowd->grid, index, FF_PADDING, crowd->neighbours[index]);
+        ff_grid_neighbours(&crowd->grid, index, padding, crowd->neighbours[index]);
 }
 
 static void navigate(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
-    ff_nav_world world = {&crowd->grid, &crowd->walls, &crowd->hull, crowd->def.step, crowd->def.keep_right};
+    const ff_crowd_def *def = &crowd->def;
+    ff_nav_world world = {&crowd->grid, &crowd->walls,   &crowd->hull,    &def->mcn,
+                          def->step,    def->keep_right, def->mcn.padding};
+    if (baseline(crowd, slot)) {
+        world.keep_right = def->baseline.keep_right;
+        world.padding = def->baseline.padding;
+    }
+    ff_nav_body body = {.heading = crowd->bodies[slot].heading};
+    body.stance.foot = ff_gait_stance(ff_crowd_gait(crowd, slot), &body.stance.ball, &body.stance.heading);
     ff_nav_step(&world, index, crowd->neighbours[index], crowd->neighbour_count[index], &crowd->traits[slot],
-                crowd->bodies[slot].heading, &crowd->minds[slot]);
+                &body, &crowd->minds[slot]);
 }
 
 static ff_rates clamp_to_examples(const void *space, ff_rates target)
@@ -107,6 +128,11 @@ static void move(ff_crowd *crowd, uint32_t index)
     body->phase = step_phase(gait);
     ff_rates mean = ff_body_step(body, mind->command, mind->facing, dt, &limits);
     crowd->velocity[slot] = ff_scale2(ff_sub2(body->position, before), 1.0 / dt);
+    if (baseline(crowd, slot)) {
+        ff_mind *seen = &crowd->minds[slot];
+        double share = 1.0 - ff_exp(-dt / SEEN_DELAY);
+        seen->measured = ff_madd2(seen->measured, ff_sub2(crowd->velocity[slot], seen->measured), share);
+    }
     ff_gait_step(crowd->space, gait, body->position, body->heading, mean, dt);
 }
 

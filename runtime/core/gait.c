@@ -35,6 +35,16 @@ int ff_gait_planted(const ff_gait *gait, int foot)
     return (int)gait->foot[foot].planted;
 }
 
+int ff_gait_stance(const ff_gait *gait, ff_vec2 *ball, double *heading)
+{
+    if (gait->foot[0].planted == gait->foot[1].planted) return -1;
+    int foot = gait->foot[0].planted ? 0 : 1;
+    const ff_foothold *lock = &gait->foot[foot].lock;
+    *ball = ff_v2(lock->a, lock->b);
+    *heading = lock->yaw;
+    return foot;
+}
+
 static void draw_style(ff_gait *gait, uint64_t variation)
 {
     ff_random random = {variation, 0x67616974u, 0};

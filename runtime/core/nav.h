@@ -5,9 +5,8 @@
 
 #include "runtime/core/nav_grid.h"
 #include "runtime/core/nav_hull.h"
+#include "runtime/core/nav_stance.h"
 #include "runtime/core/nav_walls.h"
-
-#define FF_PADDING 0.02 /* m per disc, in forces and constraints */
 
 /* What does not change from step to step. */
 typedef struct ff_traits {
@@ -15,6 +14,8 @@ typedef struct ff_traits {
     double goal_tolerance;  /* m */
     double preferred_speed; /* m/s */
     double radius;          /* m */
+    uint32_t navigation;    /* FF_NAVIGATION_MCN, _ORCA or _SF */
+    uint32_t unused;
 } ff_traits;
 
 /* Walks to its goal; stands at it; stands as near to it as others let it. */
@@ -31,8 +32,11 @@ typedef struct ff_mind {
     double stalled;     /* s since best improved; standing short of the goal: s since settling */
     double detour;      /* rad by which the way is turned now */
     double detour_left; /* s */
-    uint32_t detours;   /* how many were tried for this goal */
-    uint32_t standing;  /* FF_WALKS, FF_STANDS or FF_SETTLED */
+    double strafing;    /* s of side-stepping, or, negative, until it is allowed again (nav_facing.h) */
+    ff_vec2 measured;   /* m/s, of the root as seen from outside: what baselines go by */
+    ff_stance_memory stance;
+    uint32_t detours;  /* how many were tried for this goal */
+    uint32_t standing; /* FF_WALKS, FF_STANDS or FF_SETTLED */
 } ff_mind;
 
 /* Shared by all agents during a step; read only. */
@@ -40,9 +44,18 @@ typedef struct ff_nav_world {
     const ff_grid *grid;
     const ff_walls *walls;
     const ff_hull *hull;
-    double step;       /* s */
+    const ff_mcn_def *mcn;
+    double step; /* s */
+    /* As the agent's method has them: */
     double keep_right; /* rad, by which people turn aside for those they meet; negative = to the left */
+    double padding;    /* m per disc, in forces and constraints */
 } ff_nav_world;
+
+/* What synthesis has made of the last decision. */
+typedef struct ff_nav_body {
+    double heading; /* rad */
+    ff_stance stance;
+} ff_nav_body;
 
 ff_mind ff_mind_new(double heading);
 /* The goal has changed. */
@@ -50,6 +63,6 @@ void ff_mind_forget_goal(ff_mind *mind);
 
 /* Decide for grid->seen[self] with these neighbours (from ff_grid_neighbours): updates mind. */
 void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours, uint32_t count,
-                 const ff_traits *traits, double heading, ff_mind *mind);
+                 const ff_traits *traits, const ff_nav_body *body, ff_mind *mind);
 
 #endif

@@ -27,17 +27,18 @@ ff_vec2 ff_power_law(ff_vec2 x, ff_vec2 v, double reach)
     return ff_scale2(ff_time_to_disc_gradient(x, v, reach), steepness(time));
 }
 
-ff_vec2 ff_force_from_disc(ff_vec2 x, ff_vec2 v, double reach, ff_vec2 away)
+ff_vec2 ff_force_from_disc(ff_vec2 x, ff_vec2 v, double reach, double limit, ff_vec2 away)
 {
     double distance = ff_length2(x);
-    if (distance > reach) return ff_shorten2(ff_power_law(x, v, reach), FF_FORCE_MAX);
+    if (distance > reach) return ff_shorten2(ff_power_law(x, v, reach), limit);
     ff_vec2 graze = ff_power_law(x, v, GRAZE * distance);
     ff_vec2 out = distance > 1e-6 ? ff_scale2(x, 1.0 / distance) : away;
     double overlap = reach > 0.0 ? (reach - distance) / reach : 0.0;
-    return ff_shorten2(ff_madd2(graze, out, PUSH * overlap), FF_FORCE_MAX);
+    return ff_shorten2(ff_madd2(graze, out, PUSH * overlap), limit);
 }
 
-ff_vec2 ff_force_from_walls(const ff_wall *const *walls, uint32_t count, ff_vec2 p, ff_vec2 v, double radius)
+ff_vec2 ff_force_from_walls(const ff_wall *const *walls, uint32_t count, ff_vec2 p, ff_vec2 v, double radius,
+                            double limit)
 {
     double soonest = TIME_MAX;
     ff_vec2 gradient = ff_v2(0.0, 0.0);
@@ -46,7 +47,7 @@ ff_vec2 ff_force_from_walls(const ff_wall *const *walls, uint32_t count, ff_vec2
         double time = ff_time_to_wall(walls[i], p, v, radius, &here);
         if (time < soonest) soonest = time, gradient = here;
     }
-    if (soonest > 0.0) return ff_shorten2(ff_scale2(gradient, steepness(soonest)), FF_FORCE_MAX);
+    if (soonest > 0.0) return ff_shorten2(ff_scale2(gradient, steepness(soonest)), limit);
     /* In touch: a constant gentle push out, so that nobody leans on a wall. */
     return ff_scale2(gradient, 1.0);
 }

@@ -97,6 +97,7 @@ ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neig
     /* Within the tolerance people brake evenly (as fast as the command may change) and then stand. */
     if (mind->standing || distance <= traits->goal_tolerance) return ff_v2(0.0, 0.0);
 
+    bool watched = world->mcn->progress && traits->navigation == FF_NAVIGATION_MCN;
     if (mind->detour_left > 0.0) {
         mind->detour_left -= world->step;
         mind->best = distance;
@@ -106,7 +107,7 @@ ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neig
         mind->stalled = 0.0;
     } else {
         mind->stalled += world->step;
-        if (mind->stalled > PATIENCE)
+        if (mind->stalled > PATIENCE && watched)
             give_way_to_fate(goal_taken(world->grid, neighbours, count, traits), distance, world, traits,
                              mind);
     }
@@ -151,6 +152,7 @@ ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_wal
                           uint32_t wall_count, const ff_traits *traits, ff_vec2 preferred, ff_mind *mind)
 {
     const ff_seen *me = &world->grid->seen[self];
+    if (world->keep_right == 0.0) return preferred;
     bool goes = ff_dot2(preferred, preferred) > 0.0,
          meets = goes && meets_somebody(world->grid, self, preferred);
     mind->bias = ff_clamp(mind->bias + (meets ? 1.0 : -1.0) * world->step / EASE, 0.0, 1.0);
@@ -176,7 +178,7 @@ ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neigh
         if (wish < WAY_LEAST || ff_dot2(apart, apart) < reach * reach) continue;
         ff_vec2 way = ff_scale2(other->preferred, 1.0 / wish), x = ff_sub2(me->position, other->position);
         double gap = ff_length2(x) - reach, across = ff_det2(way, x);
-        if (gap > WAY_GAP || ff_dot2(way, x) < 0.0 || fabs(across) > reach + 2.0 * FF_PADDING) continue;
+        if (gap > WAY_GAP || ff_dot2(way, x) < 0.0 || fabs(across) > reach + 2.0 * world->padding) continue;
         /* To the side where he will be once the other has moved on: or both step to the same side, again and again. */
         double later = across - WAY_AHEAD * ff_det2(way, other->velocity);
         double side = later >= 0.0 ? 1.0 : -1.0;

@@ -49,4 +49,8 @@ void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 posi
 /* 1 when foot (0 left, 1 right) is locked to the ground now. */
 int ff_gait_planted(const ff_gait *gait, int foot);
 
+/* The foot that alone is on the ground (0 left, 1 right): where its ball stands and where it points, in the world. -1 when
+ * both are. */
+int ff_gait_stance(const ff_gait *gait, ff_vec2 *ball, double *heading);
+
 #endif

@@ -19,7 +19,7 @@ const char *ff_scene_kind_name(ff_scene_kind kind)
 
 #define COMMON_KEYS                                                                                          \
     "kind", "title", "seconds", "step", "seed", "at_goal", "agents", "agent_radius", "preferred_speed",      \
-        "preferred_speed_spread", "goal_tolerance", "walls"
+        "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "mcn", "baseline"
 
 static const char *const circle_keys[] = {COMMON_KEYS, "radius", "jitter", NULL};
 static const char *const two_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "distance", NULL};
@@ -29,8 +29,8 @@ static const char *const four_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "s
 static const char *const custom_keys[] = {COMMON_KEYS, NULL};
 static const char *const *const kind_keys[FF_SCENE_KIND_COUNT] = {
     circle_keys, two_way_keys, bidirectional_keys, four_way_keys, custom_keys};
-static const char *const agent_keys[] = {"position",        "goal",   "heading_degrees",
-                                         "preferred_speed", "radius", NULL};
+static const char *const agent_keys[] = {"position",   "goal", "heading_degrees", "preferred_speed", "radius",
+                                         "navigation", NULL};
 
 static ff_status read_kind(const ff_json *json, ff_scene_def *def, ff_error *error)
 {
@@ -159,6 +159,7 @@ static ff_status read_agent(const ff_json *json, const json_t *object, const ff_
     TRY(ff_json_number(json, object, "heading_degrees", -360.0, 360.0, &degrees, error));
     TRY(ff_json_number(json, object, "preferred_speed", 0.1, 5.0, &out->preferred_speed, error));
     TRY(ff_json_number(json, object, "radius", 0.1, 1.0, &out->radius, error));
+    TRY(ff_scene_method_read(json, object, &out->navigation, error));
     ff_vec2 way = ff_sub2(out->goal, out->position);
     out->heading = isfinite(degrees) ? degrees * FF_DEG : ff_atan2(way.b, way.a);
     return status;
@@ -189,6 +190,7 @@ static ff_status read_scene(const ff_json *json, ff_scene_def *def, ff_error *er
     ff_status status = read_kind(json, def, error);
     TRY(ff_json_only_keys(json, json->root, kind_keys[def->kind], error));
     TRY(read_common(json, def, error));
+    TRY(ff_scene_navigation_read(json, &def->navigation, error));
     TRY(read_sizes(json, def, error));
     TRY(read_walls(json, def, error));
     if (def->kind == FF_SCENE_CUSTOM) TRY(read_fixed(json, def, error));
@@ -196,14 +198,15 @@ static ff_status read_scene(const ff_json *json, ff_scene_def *def, ff_error *er
 }
 #undef TRY
 
-static ff_status finish(ff_status loaded, ff_json *json, ff_scene_def *out, ff_error *error)
+ff_scene_def ff_scene_def_default(ff_scene_kind kind)
 {
     static const int64_t usual_agents[FF_SCENE_KIND_COUNT] = {17, 30, 53, 100, 0};
-    memset(out, 0, sizeof *out);
-    if (loaded != FF_OK) return loaded;
-    *out = (ff_scene_def){.seconds = 60.0,
+    return (ff_scene_def){.kind = kind,
+                          .seconds = 60.0,
                           .step = 1.0 / 30.0,
                           .seed = 1,
+                          .navigation = ff_scene_navigation_default(),
+                          .agents = usual_agents[kind],
                           .agent_radius = 0.3,
                           .preferred_speed = 1.3,
                           .goal_tolerance = 0.5,
@@ -214,9 +217,15 @@ static ff_status finish(ff_status loaded, ff_json *json, ff_scene_def *out, ff_e
                           .square = NAN,
                           .corridor_width = NAN,
                           .corridor_length = NAN};
+}
+
+static ff_status finish(ff_status loaded, ff_json *json, ff_scene_def *out, ff_error *error)
+{
+    memset(out, 0, sizeof *out);
+    if (loaded != FF_OK) return loaded;
     ff_status status = read_kind(json, out, error);
     if (status == FF_OK) {
-        out->agents = usual_agents[out->kind];
+        *out = ff_scene_def_default(out->kind);
         status = read_scene(json, out, error);
     }
     if (status != FF_OK) ff_scene_def_free(out);

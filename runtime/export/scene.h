@@ -21,7 +21,16 @@ typedef struct ff_scene_agent {
     double radius;          /* m */
     double goal_tolerance;  /* m */
     uint32_t group;         /* which block it starts in; on the circle its own number */
+    ff_navigation navigation;
 } ff_scene_agent;
+
+/* How everyone finds their way: the crowd's definition has the same members. */
+typedef struct ff_scene_navigation {
+    ff_navigation method;
+    double keep_right; /* rad, of MCN */
+    ff_mcn_def mcn;
+    ff_baseline_def baseline;
+} ff_scene_navigation;
 
 typedef struct ff_scene_wall {
     ff_vec2 p, q; /* m */
@@ -34,6 +43,7 @@ typedef struct ff_scene_def {
     double seconds, step;
     uint64_t seed;
     bool leave; /* agents leave the scene when they reach their goals */
+    ff_scene_navigation navigation;
     int64_t agents;
     double agent_radius, preferred_speed, speed_spread, goal_tolerance;
     double radius, spacing, jitter, distance, square, corridor_width, corridor_length;
@@ -47,6 +57,7 @@ typedef struct ff_scene {
     double seconds, step;
     uint64_t seed;
     bool leave;
+    ff_scene_navigation navigation;
     ff_array agents; /* ff_scene_agent */
     ff_array walls;  /* ff_scene_wall */
     uint32_t groups;
@@ -59,6 +70,17 @@ ff_status ff_scene_def_load(const char *path, ff_scene_def *out, ff_error *error
 ff_status ff_scene_def_parse(const char *text, size_t size, const char *name, ff_scene_def *out,
                              ff_error *error);
 void ff_scene_def_free(ff_scene_def *def);
+
+/* A layout as it is without any key: FbCrowd's scenes in the sizes of the navigation study. */
+ff_scene_def ff_scene_def_default(ff_scene_kind kind);
+
+const char *ff_navigation_name(ff_navigation navigation); /* as in files: "mcn" */
+/* The keys "navigation", "mcn" and "baseline" of a scene (scene_navigation.c). */
+ff_scene_navigation ff_scene_navigation_default(void);
+ff_status ff_scene_navigation_read(const ff_json *json, ff_scene_navigation *out, ff_error *error);
+/* "navigation" of object, which may be the scene or one of its agents. */
+ff_status ff_scene_method_read(const ff_json *json, const json_t *object, ff_navigation *out,
+                               ff_error *error);
 
 /* Place everyone. Fails when two agents would start inside each other. */
 ff_status ff_scene_create(const ff_scene_def *def, ff_scene *out, ff_error *error);

@@ -186,6 +186,7 @@ ff_status ff_scene_create(const ff_scene_def *def, ff_scene *out, ff_error *erro
     out->step = def->step;
     out->seed = def->seed;
     out->leave = def->leave;
+    out->navigation = def->navigation;
     const ff_scene_wall *walls = def->walls.data;
     ff_status status = FF_OK;
     for (size_t i = 0; i < def->walls.count && status == FF_OK; ++i)

@@ -19,6 +19,7 @@ static ff_status populate(const ff_scene *scene, ff_crowd *crowd, ff_agent *hand
         def.goal_tolerance = agents[i].goal_tolerance;
         def.preferred_speed = agents[i].preferred_speed;
         def.radius = agents[i].radius;
+        def.navigation = agents[i].navigation;
         ff_status status = ff_crowd_add_agent(crowd, &def, &handles[i], error);
         if (status != FF_OK) return status;
     }
@@ -39,6 +40,10 @@ static ff_status create_crowd(const ff_simulation *simulation, ff_crowd **crowd,
     def.step = scene->step;
     def.seed = scene->seed;
     def.threads = simulation->threads;
+    def.keep_right = scene->navigation.keep_right;
+    def.navigation = scene->navigation.method;
+    def.mcn = scene->navigation.mcn;
+    def.baseline = scene->navigation.baseline;
     return ff_crowd_create(simulation->pack, &def, crowd, error);
 }
 

@@ -31,8 +31,9 @@ static void the_power_law_matches_the_anchors(void **state)
         FF_ASSERT_NEAR(f.a, anchor[i][2], 6e-6);
         FF_ASSERT_NEAR(f.b, anchor[i][3], 6e-6);
     }
-    FF_ASSERT_NEAR(ff_length2(ff_force_from_disc(ff_v2(-3.0, 0.499), ff_v2(2.6, 0.0), 0.5, ff_v2(1, 0))),
-                   FF_FORCE_MAX, 1e-12);
+    FF_ASSERT_NEAR(
+        ff_length2(ff_force_from_disc(ff_v2(-3.0, 0.499), ff_v2(2.6, 0.0), 0.5, FF_FORCE_MAX, ff_v2(1, 0))),
+        FF_FORCE_MAX, 1e-12);
 }
 
 static void a_wall_one_second_away_pushes_as_computed(void **state)
@@ -43,11 +44,11 @@ static void a_wall_one_second_away_pushes_as_computed(void **state)
     const ff_wall *walls[1] = {&wall};
     ff_vec2 gradient;
     FF_ASSERT_NEAR(ff_time_to_wall(&wall, ff_v2(0.0, 1.3), ff_v2(0.0, -1.0), 0.3, &gradient), 1.0, 1e-12);
-    ff_vec2 f = ff_force_from_walls(walls, 1, ff_v2(0.0, 1.3), ff_v2(0.0, -1.0), 0.3);
+    ff_vec2 f = ff_force_from_walls(walls, 1, ff_v2(0.0, 1.3), ff_v2(0.0, -1.0), 0.3, FF_FORCE_MAX);
     FF_ASSERT_NEAR(f.a, 0.0, 1e-12);
     FF_ASSERT_NEAR(f.b, 2.50786, 6e-6);
-    f = ff_force_from_walls(walls, 1, ff_v2(0.0, -1.3), ff_v2(0.0, 1.0),
-                            0.3); /* the other side is solid too */
+    f = ff_force_from_walls(walls, 1, ff_v2(0.0, -1.3), ff_v2(0.0, 1.0), 0.3,
+                            FF_FORCE_MAX); /* the other side is solid too */
     FF_ASSERT_NEAR(f.b, -2.50786, 6e-6);
 }
 
@@ -61,7 +62,8 @@ static void a_chain_of_segments_pushes_like_one_wall(void **state)
         parts[i] = &part[i];
     }
     ff_vec2 p = ff_v2(0.13, 1.0), v = ff_v2(0.4, -1.1);
-    ff_vec2 f = ff_force_from_walls(parts, 8, p, v, 0.3), g = ff_force_from_walls(one, 1, p, v, 0.3);
+    ff_vec2 f = ff_force_from_walls(parts, 8, p, v, 0.3, FF_FORCE_MAX),
+            g = ff_force_from_walls(one, 1, p, v, 0.3, FF_FORCE_MAX);
     FF_ASSERT_NEAR(f.a, g.a, 1e-12);
     FF_ASSERT_NEAR(f.b, g.b, 1e-12);
 }
@@ -122,15 +124,15 @@ static void time_to_a_wall_is_when_the_disc_first_touches(void **state)
 static void overlapping_and_coincident_pairs_get_a_finite_push_apart(void **state)
 {
     (void)state;
-    ff_vec2 f = ff_force_from_disc(ff_v2(0.3, 0.0), ff_v2(0.0, 0.0), 0.6, ff_v2(1, 0));
+    ff_vec2 f = ff_force_from_disc(ff_v2(0.3, 0.0), ff_v2(0.0, 0.0), 0.6, FF_FORCE_MAX, ff_v2(1, 0));
     FF_ASSERT_NEAR(f.a, 5.0, 1e-9);
-    f = ff_force_from_disc(ff_v2(0.0, 0.0), ff_v2(0.0, 0.0), 0.6, ff_v2(-1, 0));
+    f = ff_force_from_disc(ff_v2(0.0, 0.0), ff_v2(0.0, 0.0), 0.6, FF_FORCE_MAX, ff_v2(-1, 0));
     FF_ASSERT_NEAR(f.a, -5.0, 1e-9);
-    f = ff_force_from_disc(ff_v2(-0.5, 0.01), ff_v2(1.0, 0.0), 0.6, ff_v2(1, 0));
+    f = ff_force_from_disc(ff_v2(-0.5, 0.01), ff_v2(1.0, 0.0), 0.6, FF_FORCE_MAX, ff_v2(1, 0));
     assert_true(isfinite(f.a) && isfinite(f.b) && f.a < 0.0);
     ff_wall wall = ff_wall_between(ff_v2(-1.0, 0.0), ff_v2(1.0, 0.0));
     const ff_wall *walls[1] = {&wall};
-    f = ff_force_from_walls(walls, 1, ff_v2(0.0, 0.0), ff_v2(0.0, 1.0), 0.3);
+    f = ff_force_from_walls(walls, 1, ff_v2(0.0, 0.0), ff_v2(0.0, 1.0), 0.3, FF_FORCE_MAX);
     assert_true(isfinite(f.a) && isfinite(f.b));
 }
 
