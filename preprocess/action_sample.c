@@ -25,6 +25,26 @@ static void colliders_at(const ff_rig *rig, const ff_motion *motion, int frame,
         ff_ground(ff_v2(motion->root[frame].x, motion->root[frame].y), motion->hips[frame].z);
 }
 
+void ff_join_read(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec2 origin, double heading,
+                  double level, ff_join *out)
+{
+    const double apart = 1.0 / 30.0; /* s, footstep study section 1 */
+    ff_vec2 axis = ff_fwd2(heading);
+    for (int k = 0; k < FF_JOIN_FRAMES; ++k) {
+        ff_vec3 root, hips, at[FF_BODY_COUNT];
+        ff_quat local[FF_ROLE_JOINT_COUNT];
+        ff_motion_sample(motion, frame + (k - FF_JOIN_FRAMES / 2) * apart / motion->frame_time, &root, &hips,
+                         local);
+        ff_rig_pose_local(rig, root, hips, local, at);
+        for (int j = 0; j < FF_ROLE_JOINT_COUNT; ++j) {
+            ff_vec2 here = ff_to_frame2(axis, ff_sub2(ff_plane(at[j]), origin));
+            out->at[k][j][0] = (float)here.a;
+            out->at[k][j][1] = (float)here.b;
+            out->at[k][j][2] = (float)(at[j].y - level);
+        }
+    }
+}
+
 void ff_action_sample(const ff_rig *rig, const ff_motion *motion, ff_vec2 origin, double heading,
                       ff_action *out)
 {
@@ -45,7 +65,8 @@ void ff_action_sample(const ff_rig *rig, const ff_motion *motion, ff_vec2 origin
         for (int c = 0; c < FF_COLLIDER_COUNT; ++c) {
             ff_vec3 here = ff_lerp3(p[c], q[c], at - low);
             ff_vec2 local = ff_to_frame2(axis, ff_sub2(ff_plane(here), origin));
-            out->colliders[k][c] = (ff_pack_collider){(float)local.a, (float)local.b, (float)here.y};
+            out->colliders[k][c] = (ff_pack_collider){(float)local.a, (float)local.b,
+                                                      (float)(here.y - (double)out->record.height)};
             radius = ff_max(radius, ff_length2(ff_sub2(ff_plane(here), root)) + RADIUS[c]);
         }
     }

@@ -167,6 +167,31 @@ static void describe_step(const ff_motion *motion, const ff_step_span *span, con
     r->support_yaw = (float)ff_wrap(start->yaw[r->support] - from.z);
 }
 
+/* Contacts, flat stretches and lifts of both feet from first to last. What the clip cuts was not seen and is no event. */
+static void list_events(const ff_motion *motion, const ff_plants *plants, ff_action *out)
+{
+    ff_pack_action *r = &out->record;
+    for (int i = 0; i < plants->count; ++i) {
+        const ff_plant *p = &plants->items[i];
+        const int frames[FF_EVENT_KIND_COUNT] = {
+            [FF_EVENT_CONTACT] = p->cut_start ? -1 : p->start,
+            [FF_EVENT_FLAT] = p->cut_start && p->flat_start == p->start ? -1 : p->flat_start,
+            [FF_EVENT_HEEL_OFF] =
+                p->flat_end < 0 || (p->cut_end && p->flat_end == p->end) ? -1 : p->flat_end + 1,
+            [FF_EVENT_TOE_OFF] = p->cut_end ? -1 : p->end + 1};
+        for (uint32_t kind = 0; kind < FF_EVENT_KIND_COUNT; ++kind) {
+            if (frames[kind] < out->first_frame || frames[kind] > out->last_frame) continue;
+            if (r->event_count >= FF_ACTION_EVENTS_MAX) return;
+            ff_pack_event event = {(float)(frames[kind] * motion->frame_time), (uint32_t)p->foot, kind,
+                                   (uint32_t)i};
+            uint32_t at = r->event_count++;
+            for (; at > 0 && out->events[at - 1].time > event.time; --at)
+                out->events[at] = out->events[at - 1];
+            out->events[at] = event;
+        }
+    }
+}
+
 void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
                         const ff_step_span *span, ff_action *out)
 {
@@ -174,6 +199,10 @@ void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_pla
     ff_pack_action *r = &out->record;
     out->first_frame = span->first;
     out->last_frame = span->last;
+    r->flags = span->flags;
+    double level = plants->items[span->support].level, landing = plants->items[span->swing].level;
+    r->height = (float)(level * motion->scale);
+    r->rise = (float)((landing - level) * motion->scale);
     describe_time(motion, plants, span, r);
     feet start = feet_at(rig, motion, span->first), end = feet_at(rig, motion, span->last);
     /* The swing foot's old footstep is its ball at its full plant, so that one action's f starts where the last one
@@ -185,5 +214,10 @@ void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_pla
     }
     describe_step(motion, span, &start, &end, left, r);
     r->mode = find_mode(r, span);
+    list_events(motion, plants, out);
     ff_action_sample(rig, motion, start.ball[r->support], motion->root[span->first].z, out);
+    ff_join_read(rig, motion, span->first, start.ball[r->support], motion->root[span->first].z,
+                 (double)r->height, &out->start);
+    ff_join_read(rig, motion, span->last, end.ball[r->swing], motion->root[span->last].z,
+                 (double)r->height + (double)r->rise, &out->end);
 }

@@ -11,6 +11,7 @@ typedef struct ff_step_span {
     int swing;       /* plant in which the other foot arrives */
     int swing_from;  /* plant that the swing foot left, -1 = none in the clip: its place at first is taken */
     int mode;        /* FF_MODE_*, or -1: walk or run, told apart by flight and speed */
+    uint32_t flags;  /* FF_ACTION_WHOLE, _FROM_STANDING, _TO_STANDING */
 } ff_step_span;
 
 /* First frame in which the whole foot is down: flat_start; for a foot that is never flat (forefoot runners) the first
@@ -27,7 +28,11 @@ bool ff_find_flight(const ff_plants *plants, int first, int last, int *from, int
 void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
                         const ff_step_span *span, ff_action *out);
 
-/* Fill colliders, collider_samples and coarse_radius of an action whose frames and frame S0 are given. */
+/* Joints about a frame as seen from origin and heading, over a level (m). */
+void ff_join_read(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec2 origin, double heading,
+                  double level, ff_join *out);
+
+/* Fill colliders, collider_samples and coarse_radius of an action whose frames, frame S0 and height are given. */
 void ff_action_sample(const ff_rig *rig, const ff_motion *motion, ff_vec2 origin, double heading,
                       ff_action *out);
 

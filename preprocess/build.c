@@ -3,6 +3,7 @@
 #include "mocap/generator/generator.h"
 #include "preprocess/build_clip.h"
 #include "preprocess/pack_fill.h"
+#include "preprocess/successors.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/tasks.h"
 #include "runtime/tool/progress.h"
@@ -179,6 +180,7 @@ static ff_status fill(build *b, ff_error *error)
     if (status == FF_OK) status = ff_pack_add_examples(content, &set, error);
     if (status == FF_OK) status = ff_pack_add_gait(content, &set, error);
     if (status == FF_OK) status = ff_pack_add_clips(content, b->clips, b->good, b->settings->rate, error);
+    if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
     if (status == FF_OK)
         status = ff_pack_add_meta(content, b->settings, b->clips, b->good, b->clips + b->good,
                                   b->count - b->good, &set, error);

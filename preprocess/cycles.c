@@ -64,6 +64,8 @@ static bool find_keys(const ff_plants *plants, int index, double frame_time, cyc
         }
     }
     if (!right || right->cut_end || right->cut_start) return false;
+    if (left->level != right->level || left->level != plants->items[next].level)
+        return false; /* a step up or down */
     bool walks = before && before->end >= start;
     double right_off = walks ? before->end + 1 : right->end + 1;
     out->start = start;

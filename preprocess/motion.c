@@ -31,17 +31,30 @@ void ff_rig_rest_pose(const ff_rig *rig, ff_vec3 *positions)
     ff_rig_pose(rig, rig->offset[FF_ROLE_HIPS], world, positions);
 }
 
-void ff_motion_pose(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec3 *positions,
-                    ff_quat *rotations)
+static void pose_local(const ff_rig *rig, ff_vec3 root, ff_vec3 hips, const ff_quat *local, ff_quat *world,
+                       ff_vec3 *positions)
 {
-    ff_quat stack[FF_ROLE_JOINT_COUNT], *world = rotations ? rotations : stack;
-    const ff_quat *local = motion->rotations + (size_t)frame * FF_ROLE_JOINT_COUNT;
-    ff_vec3 root = motion->root[frame], hips = motion->hips[frame];
     world[0] = ff_quat_mul(ff_quat_yaw(root.z), local[0]);
     for (int r = 1; r < FF_ROLE_JOINT_COUNT; ++r)
         world[r] = ff_quat_mul(world[ff_role_parent((ff_role)r)], local[r]);
     ff_vec2 at = ff_add2(ff_v2(root.x, root.y), ff_from_frame2(ff_fwd2(root.z), ff_v2(hips.x, hips.y)));
     ff_rig_pose(rig, ff_ground(at, hips.z), world, positions);
+}
+
+void ff_rig_pose_local(const ff_rig *rig, ff_vec3 root, ff_vec3 hips, const ff_quat *local,
+                       ff_vec3 *positions)
+{
+    ff_quat world[FF_ROLE_JOINT_COUNT];
+    pose_local(rig, root, hips, local, world, positions);
+}
+
+void ff_motion_pose(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec3 *positions,
+                    ff_quat *rotations)
+{
+    ff_quat stack[FF_ROLE_JOINT_COUNT];
+    pose_local(rig, motion->root[frame], motion->hips[frame],
+               motion->rotations + (size_t)frame * FF_ROLE_JOINT_COUNT, rotations ? rotations : stack,
+               positions);
 }
 
 /* --------------------------------------------------------------------------------------------------- the memory */

@@ -35,6 +35,10 @@ void ff_rig_rest_pose(const ff_rig *rig, ff_vec3 *positions);
 /* Points [FF_BODY_COUNT] from the position of the hips and world rotations [FF_ROLE_JOINT_COUNT]. */
 void ff_rig_pose(const ff_rig *rig, ff_vec3 hips, const ff_quat *world, ff_vec3 *positions);
 
+/* The same from a root ground frame (a, b, heading), hips and local rotations as an ff_motion holds them. */
+void ff_rig_pose_local(const ff_rig *rig, ff_vec3 root, ff_vec3 hips, const ff_quat *local,
+                       ff_vec3 *positions);
+
 /* Bring a clip onto the rig: limb directions copied by role (smallest rotation between rest directions), root path
  * scaled by leg length, floor levelled by the plants' plane, planted balls at the rig's rest height. Root frame as algorithms A.4: hips low-passed twice over
  * 0.25 s, facing from hips and shoulders. The caller frees *out with ff_motion_free. */

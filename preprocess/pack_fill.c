@@ -2,6 +2,7 @@
 
 #include "preprocess/hull.h"
 #include "preprocess/simplices.h"
+#include "preprocess/successors.h"
 #include "runtime/core/base/fail.h"
 
 #include <stdlib.h>
@@ -228,6 +229,8 @@ static ff_pack_plant plant_record(const ff_build_clip *clip, const ff_plant *pla
         .ball = {(float)(plant->ball.a * scale), (float)(plant->ball.b * scale)},
         .yaw = (float)plant->yaw,
         .slide = (float)(plant->slide * scale),
+        .level = (float)(plant->level * scale),
+        .origin = plant->written ? FF_PLANT_WRITTEN : FF_PLANT_FOUND,
         .confidence = (float)plant->confidence,
     };
 }
@@ -239,7 +242,10 @@ static ff_status add_action(ff_pack_content *content, const ff_action *action, c
     size_t samples = (size_t)record.collider_samples * FF_COLLIDER_COUNT;
     ff_pack_action *out = ff_array_grow(&content->actions, 1, sizeof *out);
     ff_pack_collider *colliders = ff_array_grow(&content->colliders, samples, sizeof *colliders);
-    if (!out || !colliders) return no_memory(error);
+    ff_pack_event *events = ff_array_grow(&content->events, action->record.event_count, sizeof *events);
+    ff_action_joins *join = ff_array_grow(&content->joins, 1, sizeof *join);
+    if (!out || !colliders || (!events && record.event_count > 0) || !join) return no_memory(error);
+    *join = (ff_action_joins){action->start, action->end};
     record.clip = number;
     record.first_collider = (uint32_t)(content->colliders.count - samples);
     record.t_0 = (float)((double)record.t_0 + time_offset);
@@ -248,6 +254,12 @@ static ff_status add_action(ff_pack_content *content, const ff_action *action, c
         record.flight[0] = (float)((double)record.flight[0] + time_offset);
         record.flight[1] = (float)((double)record.flight[1] + time_offset);
     }
+    for (uint32_t i = 0; i < action->record.event_count; ++i) {
+        events[i] = action->events[i];
+        events[i].time = (float)((double)events[i].time + time_offset);
+        events[i].plant += clip->first_plant;
+    }
+    record.first_event = (uint32_t)(content->events.count - record.event_count);
     if (record.support_plant != UINT32_MAX) record.support_plant += clip->first_plant;
     if (record.swing_plant != UINT32_MAX) record.swing_plant += clip->first_plant;
     memcpy(colliders, action->colliders, samples * sizeof *colliders);

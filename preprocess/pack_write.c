@@ -36,6 +36,8 @@ static const struct section_kind {
     {FF_SECTION_GAIT, sizeof(ff_pack_gait), offsetof(ff_pack_content, gait)},
     {FF_SECTION_GAIT_PATH, sizeof(ff_pack_gait_path), offsetof(ff_pack_content, gait_path)},
     {FF_SECTION_SHARP, sizeof(ff_pack_sharp), offsetof(ff_pack_content, sharp)},
+    {FF_SECTION_EVENTS, sizeof(ff_pack_event), offsetof(ff_pack_content, events)},
+    {FF_SECTION_SUCCESSORS, sizeof(ff_pack_successor), offsetof(ff_pack_content, successors)},
 };
 
 static ff_array *section_array(ff_pack_content *content, int kind)
@@ -47,6 +49,7 @@ void ff_pack_content_free(ff_pack_content *content)
 {
     for (int k = 0; k < FF_PACK_SECTION_COUNT; ++k)
         ff_array_free(section_array(content, k));
+    ff_array_free(&content->joins);
 }
 
 uint32_t ff_pack_add_string(ff_pack_content *content, const char *text)

@@ -9,7 +9,9 @@
  * free. strings and meta are built by ff_pack_add_string and ff_pack_set_meta. */
 typedef struct ff_pack_content {
     ff_array strings, meta, joints, points, streams, frames, rotations, clips, plants, actions, colliders,
-        examples, feet, simplices, hull, tracks, loops, correspondences, pairs, gait, gait_path, sharp;
+        examples, feet, simplices, hull, tracks, loops, correspondences, pairs, gait, gait_path, sharp, events,
+        successors;
+    ff_array joins; /* ff_action_joins of each action, for ff_pack_add_successors; not written */
 } ff_pack_content;
 
 void ff_pack_content_free(ff_pack_content *content);

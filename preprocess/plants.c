@@ -17,6 +17,8 @@ static const double ABOVE_FLOOR = 0.05, ABOVE_PER_SCATTER = 3.0;
 /* m/s: ground speed of the hips at which a walk has surely become a run, and ends of the blend between the rules. */
 static const double WALKING = 1.85, RUNNING = 2.15;
 
+/* m: a foot this far off the plane stands on a level of its own: captured feet on a level floor are within 3 cm. */
+static const double OWN_LEVEL = 0.045;
 /* m: a foot that jumps this far was not standing while it did. */
 static const double TORN = 0.08;
 
@@ -311,9 +313,10 @@ static void describe_floor(const search *s, ff_plants *out)
         out->shape[foot].ankle_height += out->shape[foot].ball_height;
     }
     for (int i = 0; i < out->count; ++i) {
-        const ff_plant *p = &out->items[i];
-        double plane = s->floor.level[p->foot] + ff_dot2(s->floor.slope, p->ball);
-        out->floor.residual = ff_max(out->floor.residual, fabs(p->ball_y - plane));
+        ff_plant *p = &out->items[i];
+        double plane = s->floor.level[p->foot] + ff_dot2(s->floor.slope, p->ball), over = p->ball_y - plane;
+        out->floor.residual = ff_max(out->floor.residual, fabs(over));
+        p->level = p->flat_start >= 0 && fabs(over) > OWN_LEVEL ? over : 0.0;
     }
 }
 

@@ -36,6 +36,9 @@ typedef struct ff_plant {
     double ball_y;           /* m */
     double yaw;              /* rad, direction heel to ball on the ground */
     double slide;            /* m, path length of the ball in the flat stretch */
+    double
+        level; /* m over the floor plane; 0 on the floor: what feet and markers make of a level floor does not count */
+    bool written; /* by a person, in an override file */
 } ff_plant;
 
 /* Per frame and foot, for reports: heights over the floor and ground speeds of heel and ball. */

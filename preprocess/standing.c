@@ -13,6 +13,19 @@ int ff_plant_at(const ff_plants *plants, int foot, int frame)
     return -1;
 }
 
+double ff_hips_height(const ff_motion *motion, const ff_plants *plants, int frame)
+{
+    double level = 0.0;
+    bool down = false;
+    for (int foot = 0; foot < 2; ++foot) {
+        int plant = ff_plant_at(plants, foot, frame);
+        if (plant < 0) continue;
+        level = down ? ff_min(level, plants->items[plant].level) : plants->items[plant].level;
+        down = true;
+    }
+    return motion->hips[frame].z - level * motion->scale;
+}
+
 static bool stands(const ff_motion *motion, const ff_plants *plants, int frame)
 {
     int n = motion->frame_count, before = frame > 0 ? frame - 1 : 0,

@@ -14,4 +14,7 @@ int ff_stands_find(const ff_motion *motion, const ff_plants *plants, ff_stand *o
 /* The plant of foot that covers frame, or -1. */
 int ff_plant_at(const ff_plants *plants, int foot, int frame);
 
+/* Height of the hips over what is stood on (over the floor while no foot is down), m, in the motion's measure. */
+double ff_hips_height(const ff_motion *motion, const ff_plants *plants, int frame);
+
 #endif

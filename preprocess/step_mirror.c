@@ -35,6 +35,18 @@ static int other_side(int collider)
     }
 }
 
+/* Reflect a join: left becomes minus left, the sides' joints change places. */
+static void mirror_join(const ff_join *from, ff_join *to)
+{
+    for (int k = 0; k < FF_JOIN_FRAMES; ++k)
+        for (int j = 0; j < FF_ROLE_JOINT_COUNT; ++j) {
+            const float *at = from->at[k][ff_role_mirror((ff_role)j)];
+            to->at[k][j][0] = at[0];
+            to->at[k][j][1] = -at[1];
+            to->at[k][j][2] = at[2];
+        }
+}
+
 void ff_action_mirror(const ff_action *action, ff_action *out)
 {
     *out = *action;
@@ -45,4 +57,8 @@ void ff_action_mirror(const ff_action *action, ff_action *out)
             at.b = -at.b;
             out->colliders[k][c] = at;
         }
+    for (uint32_t k = 0; k < action->record.event_count; ++k)
+        out->events[k].foot = 1u - action->events[k].foot;
+    mirror_join(&action->start, &out->start);
+    mirror_join(&action->end, &out->end);
 }

@@ -3,6 +3,7 @@
 #include "preprocess/annotate.h"
 #include "preprocess/standing.h"
 #include "preprocess/step_check.h"
+#include "preprocess/whole.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 
@@ -13,26 +14,24 @@
 static const double STOPS_WITHIN = 0.4; /* s from the last full plant to standing */
 static const double IDLE = 0.5;         /* s, algorithms A.6 */
 
-/* A moment at which a foot has come down whole. */
-typedef struct landing {
-    int frame, plant;
-} landing;
-
 typedef struct cutting {
     const ff_rig *rig;
     const ff_motion *motion;
     const ff_plants *plants;
     int mode_tag;
-    landing *landings;
+    ff_landing *landings;
+    int landing_count;
     ff_stand *stands;
     int stand_count;
+    ff_whole *wholes;
+    int whole_count;
     ff_array actions, rejections;
     ff_error *error;
 } cutting;
 
 static int by_frame(const void *x, const void *y)
 {
-    const landing *p = x, *q = y;
+    const ff_landing *p = x, *q = y;
     return p->frame != q->frame ? (p->frame > q->frame) - (p->frame < q->frame) : p->plant - q->plant;
 }
 
@@ -78,29 +77,52 @@ static const ff_stand *last_stand(const cutting *c, int after, int before)
     return NULL;
 }
 
-/* Does the person stand soon after frame, before the next landing? */
-static bool comes_to_stand(const cutting *c, int frame, int next_landing)
+/* The standing that the person comes to soon after frame, before the next landing, or NULL. */
+static const ff_stand *next_stand(const cutting *c, int frame, int next_landing)
 {
     for (int i = 0; i < c->stand_count; ++i) {
         const ff_stand *s = &c->stands[i];
-        if (s->first <= frame && s->last > frame) return true;
+        if (s->first <= frame && s->last > frame) return s;
         if (s->first > frame && s->first < next_landing &&
             (s->first - frame) * c->motion->frame_time < STOPS_WITHIN)
-            return true;
+            return s;
+    }
+    return NULL;
+}
+
+/* A jump or a duck is played whole: its steps are none of their own. */
+static bool inside_whole(const cutting *c, const ff_step_span *span)
+{
+    for (int i = 0; i < c->whole_count; ++i) {
+        const ff_whole *w = &c->wholes[i];
+        if (w->mode != FF_MODE_TURN && span->first < w->last && span->last > w->first) return true;
     }
     return false;
 }
 
-/* One step that ends with landing number k. */
-static ff_status cut_step(cutting *c, int k, int landing_count)
+/* Whether both feet stand at the ends; a step that comes to standing lasts until then. */
+static void mind_standing(const cutting *c, ff_step_span *span, const ff_stand *before, const ff_stand *after)
 {
-    const landing *end = &c->landings[k];
+    int swing_foot = c->plants->items[span->swing].foot;
+    if (before && ff_plant_at(c->plants, swing_foot, span->first) >= 0)
+        span->flags |= FF_ACTION_FROM_STANDING;
+    if (!after) return;
+    int last = after->first > span->last ? after->first : span->last;
+    if (ff_plant_at(c->plants, 1 - swing_foot, last) != span->support) return;
+    span->last = last;
+    span->flags |= FF_ACTION_TO_STANDING;
+}
+
+/* One step that ends with landing number k. */
+static ff_status cut_step(cutting *c, int k)
+{
+    const ff_landing *end = &c->landings[k];
     const ff_plant *swing = &c->plants->items[end->plant];
     ff_step_span span = {
         .first = -1, .last = end->frame, .support = -1, .swing = end->plant, .swing_from = -1};
     span.mode = -1;
     for (int i = k - 1; i >= 0 && (span.support < 0 || span.swing_from < 0); --i) {
-        const landing *before = &c->landings[i];
+        const ff_landing *before = &c->landings[i];
         int *place = c->plants->items[before->plant].foot == swing->foot ? &span.swing_from : &span.support;
         if (*place < 0) *place = before->plant;
     }
@@ -111,33 +133,57 @@ static ff_status cut_step(cutting *c, int k, int landing_count)
     const ff_stand *stand = last_stand(c, span.first, swing->start);
     if (stand) span.first = stand->last;
     const ff_plant *support = &c->plants->items[span.support];
+    if (inside_whole(c, &span)) return FF_OK;
     if (!stand && c->plants->items[c->landings[k - 1].plant].cut_start)
         return reject(c, span.first, span.last, "its first plant is cut by the clip's start");
     if (span.first < support->start || span.first > support->end)
         return reject(c, span.first, span.last, "the same foot lands twice while the other is in the air");
-    int next = k + 1 < landing_count ? c->landings[k + 1].frame : c->motion->frame_count;
-    span.mode = ff_step_mode(c->rig, c->motion, c->plants, &span, c->mode_tag, stand != NULL,
-                             comes_to_stand(c, end->frame, next));
+    int next = k + 1 < c->landing_count ? c->landings[k + 1].frame : c->motion->frame_count;
+    const ff_stand *after = next_stand(c, end->frame, next);
+    mind_standing(c, &span, stand, after);
+    /* A clip with a duck in it is called crouched for the duck. */
+    int tag = c->mode_tag == FF_MODE_CROUCH && c->whole_count > 0 ? -1 : c->mode_tag;
+    span.mode = ff_step_mode(c->rig, c->motion, c->plants, &span, tag, stand != NULL, after != NULL);
+    if (span.mode == FF_MODE_JUMP) span.flags |= FF_ACTION_WHOLE;
     return take(c, &span);
 }
 
-/* Platform clips (jumps, climbs) are played only complete (Beacco et al. 2013, section 4). */
-static ff_status cut_whole(cutting *c, int landing_count)
+/* A stretch that is played complete: it ends on the foot that lands last, and begins on the other one. */
+static ff_status cut_whole(cutting *c, const ff_whole *w)
 {
-    int last = landing_count - 1;
-    ff_step_span span = {.first = c->landings[0].frame, .last = c->landings[last].frame, .mode = c->mode_tag};
-    if (c->stand_count > 0 && c->stands[0].last < span.last) span.first = c->stands[0].last;
-    span.swing = c->landings[last].plant;
+    ff_step_span span = {
+        .first = w->first, .last = w->last, .mode = w->mode, .flags = FF_ACTION_WHOLE, .swing = -1};
+    if (w->standing) span.flags |= FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING;
+    for (int i = 0; i < c->landing_count; ++i)
+        if (c->landings[i].frame > w->first && c->landings[i].frame <= w->last)
+            span.swing = c->landings[i].plant;
+    if (span.swing < 0) return reject(c, w->first, w->last, "no foot lands in what would be played whole");
     int foot = c->plants->items[span.swing].foot;
-    span.support = ff_plant_at(c->plants, 1 - foot, span.first);
-    span.swing_from = ff_plant_at(c->plants, foot, span.first);
+    span.support = ff_plant_at(c->plants, 1 - foot, w->first);
+    span.swing_from = ff_plant_at(c->plants, foot, w->first);
     if (span.support < 0 || span.last <= span.first)
-        return reject(c, 0, c->motion->frame_count - 1,
-                      "no foot stands where the whole-clip action would begin");
-    ff_action *action = ff_array_grow(&c->actions, 1, sizeof *action);
-    if (!action) return no_memory(c);
-    ff_action_annotate(c->rig, c->motion, c->plants, &span, action);
-    return FF_OK;
+        return reject(c, w->first, w->last, "no foot stands where the whole action would begin");
+    return take(c, &span);
+}
+
+/* A clip that is tagged as a jump or a climb, in which no such thing was found by itself: all of it. */
+static ff_whole whole_clip(const cutting *c)
+{
+    ff_whole w = {
+        .first = c->landings[0].frame, .last = c->landings[c->landing_count - 1].frame, .mode = c->mode_tag};
+    if (c->stand_count > 0 && c->stands[0].last < w.last) w.first = c->stands[0].last;
+    return w;
+}
+
+static ff_status cut_wholes(cutting *c)
+{
+    bool platform = c->mode_tag == FF_MODE_JUMP || c->mode_tag == FF_MODE_CLIMB;
+    ff_status status = FF_OK;
+    for (int i = 0; i < c->whole_count && status == FF_OK; ++i)
+        status = cut_whole(c, &c->wholes[i]);
+    if (!platform || c->whole_count > 0 || status != FF_OK) return status;
+    ff_whole all = whole_clip(c);
+    return cut_whole(c, &all);
 }
 
 /* Half a second of standing from the middle of the longest stretch, so that waiting can be planned. */
@@ -154,8 +200,10 @@ static ff_status cut_idle(cutting *c)
                          .support = ff_plant_at(c->plants, FF_LEFT, first),
                          .swing = ff_plant_at(c->plants, FF_RIGHT, first),
                          .swing_from = ff_plant_at(c->plants, FF_RIGHT, first),
-                         .mode = FF_MODE_IDLE};
+                         .mode = FF_MODE_IDLE,
+                         .flags = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING};
     if (span.support < 0 || span.swing < 0) return FF_OK;
+    if (ff_breaks_within(&c->plants->breaks, span.first, span.last)) return FF_OK;
     ff_action *action = ff_array_grow(&c->actions, 1, sizeof *action);
     if (!action) return no_memory(c);
     ff_action_annotate(c->rig, c->motion, c->plants, &span, action);
@@ -167,17 +215,22 @@ static ff_status cut_all(cutting *c)
     int count = 0;
     for (int i = 0; i < c->plants->count; ++i) {
         int full = ff_plant_full(c->plants, i);
-        if (full >= 0) c->landings[count++] = (landing){full, i};
+        if (full >= 0) c->landings[count++] = (ff_landing){full, i};
     }
     qsort(c->landings, (size_t)count, sizeof *c->landings, by_frame);
-    c->stand_count = ff_stands_find(c->motion, c->plants, c->stands, c->motion->frame_count / 2 + 1);
+    int capacity = c->motion->frame_count / 2 + 1;
+    c->landing_count = count;
+    c->stand_count = ff_stands_find(c->motion, c->plants, c->stands, capacity);
     if (count == 0) return reject(c, 0, c->motion->frame_count - 1, "no foot plant was found");
     ff_status status = cut_idle(c);
     if (c->mode_tag == FF_MODE_IDLE || status != FF_OK) return status;
-    if (c->mode_tag == FF_MODE_JUMP || c->mode_tag == FF_MODE_CLIMB) return cut_whole(c, count);
+    c->whole_count = ff_wholes_find(c->rig, c->motion, c->plants, c->stands, c->stand_count, c->landings,
+                                    count, c->wholes, capacity);
+    status = cut_wholes(c);
+    if (c->mode_tag == FF_MODE_JUMP || c->mode_tag == FF_MODE_CLIMB || status != FF_OK) return status;
     status = reject(c, 0, c->landings[0].frame, "before the first full plant");
     for (int k = 0; k < count && status == FF_OK; ++k)
-        if (!c->plants->items[c->landings[k].plant].cut_start) status = cut_step(c, k, count);
+        if (!c->plants->items[c->landings[k].plant].cut_start) status = cut_step(c, k);
     if (status == FF_OK)
         status =
             reject(c, c->landings[count - 1].frame, c->motion->frame_count - 1, "after the last full plant");
@@ -207,9 +260,11 @@ ff_status ff_actions_cut(const ff_rig *rig, const ff_motion *motion, const ff_pl
     cutting c = {.rig = rig, .motion = motion, .plants = plants, .mode_tag = mode_tag, .error = error};
     c.landings = ff_calloc((size_t)plants->count + 1, sizeof *c.landings);
     c.stands = ff_calloc((size_t)motion->frame_count / 2 + 1, sizeof *c.stands);
-    ff_status status = c.landings && c.stands ? cut_all(&c) : no_memory(&c);
+    c.wholes = ff_calloc((size_t)motion->frame_count / 2 + 1, sizeof *c.wholes);
+    ff_status status = c.landings && c.stands && c.wholes ? cut_all(&c) : no_memory(&c);
     free(c.landings);
     free(c.stands);
+    free(c.wholes);
     if (status != FF_OK) {
         ff_array_free(&c.actions);
         ff_array_free(&c.rejections);

@@ -6,12 +6,24 @@
 #include "runtime/core/pack_format.h"
 
 #define FF_COLLIDER_SAMPLES_MAX 64
+#define FF_ACTION_EVENTS_MAX 96
+
+/* Joints about one end of an action, for the distance of poses (algorithms A.12): 5 frames, a 30th of a second apart. */
+enum { FF_JOIN_FRAMES = 5 };
+typedef struct ff_join {
+    float at[FF_JOIN_FRAMES][FF_ROLE_JOINT_COUNT]
+            [3]; /* m: forward and left of the standing foot's ball by the root's
+                                                         heading, height over that foot's level */
+} ff_join;
 
 typedef struct ff_action {
-    ff_pack_action record; /* clip and first_collider are filled in by the pack builder; times from the file's
-                              first pose; plants index ff_plants.items */
+    ff_pack_action
+        record; /* clip, first_collider, first_event and successors are filled in by the pack builder; times
+                              from the file's first pose; plants index ff_plants.items */
     int first_frame, last_frame; /* of the motion */
     ff_pack_collider colliders[FF_COLLIDER_SAMPLES_MAX][FF_COLLIDER_COUNT];
+    ff_pack_event events[FF_ACTION_EVENTS_MAX]; /* times and plants as in record */
+    ff_join start, end; /* start from the support foot, end from the foot that has landed */
 } ff_action;
 
 /* A stretch that was not cut into an action, and why, for the report. */

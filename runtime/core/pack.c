@@ -46,6 +46,8 @@ enum {
     GAIT,
     GAIT_PATH,
     SHARP,
+    EVENTS,
+    SUCCESSORS,
     KIND_COUNT
 };
 _Static_assert(KIND_COUNT == FF_PACK_SECTION_COUNT, "a kind of section is missing here");
@@ -73,6 +75,8 @@ static const section_kind kinds[KIND_COUNT] = {
     [GAIT] = {FF_SECTION_GAIT, sizeof(ff_pack_gait), 0, 0},
     [GAIT_PATH] = {FF_SECTION_GAIT_PATH, sizeof(ff_pack_gait_path), 0, 0},
     [SHARP] = {FF_SECTION_SHARP, sizeof(ff_pack_sharp), 0, 0},
+    [EVENTS] = {FF_SECTION_EVENTS, sizeof(ff_pack_event), 0, 0},
+    [SUCCESSORS] = {FF_SECTION_SUCCESSORS, sizeof(ff_pack_successor), 0, 0},
 };
 
 typedef struct section_view {
@@ -231,6 +235,10 @@ static void take_views(ff_pack *pack, const section_view *views)
     pack->gait_path_count = (uint32_t)views[GAIT_PATH].count;
     pack->sharp = (const ff_pack_sharp *)(const void *)views[SHARP].data;
     pack->sharp_count = (uint32_t)views[SHARP].count;
+    pack->events = (const ff_pack_event *)(const void *)views[EVENTS].data;
+    pack->event_count = (uint32_t)views[EVENTS].count;
+    pack->successors = (const ff_pack_successor *)(const void *)views[SUCCESSORS].data;
+    pack->successor_count = (uint32_t)views[SUCCESSORS].count;
 }
 
 static ff_status read_pack(ff_pack *pack, ff_error *error)

@@ -54,6 +54,10 @@ struct ff_pack {
     uint32_t gait_path_count; /* FF_GAIT_SAMPLES or 0, as gait_count */
     const ff_pack_sharp *sharp;
     uint32_t sharp_count;
+    const ff_pack_event *events;
+    uint32_t event_count;
+    const ff_pack_successor *successors;
+    uint32_t successor_count;
 };
 
 static inline const char *ff_pack_string(const ff_pack *pack, uint32_t name)

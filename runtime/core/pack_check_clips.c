@@ -2,7 +2,10 @@
 #include "runtime/core/pack_check.h"
 
 #define LIMIT_VALUE 1e6f /* s, m, J/kg: no clip reaches it */
-#define ACTION_FLAGS (FF_ACTION_MIRRORED | FF_ACTION_ALPHA_UNDEFINED | FF_ACTION_DERIVED)
+#define ACTION_FLAGS                                                                                         \
+    (FF_ACTION_MIRRORED | FF_ACTION_ALPHA_UNDEFINED | FF_ACTION_DERIVED | FF_ACTION_WHOLE |                  \
+     FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING)
+#define SORTED_BY_TIME 1e-3f /* s: times are single precision */
 
 static ff_status check_clip(const ff_pack *pack, uint32_t index, ff_error *error)
 {
@@ -27,6 +30,8 @@ static ff_status check_clip(const ff_pack *pack, uint32_t index, ff_error *error
     if (!wild) wild = ff_pack_wild_float(clip->floor_slope, 2, 10.0f);
     if (!wild) wild = ff_pack_wild_float(&clip->time_offset, 1, LIMIT_VALUE);
     if (wild) return FF_PACK_REFUSE("CLIP", wild, "clip %u: %g", index, (double)*wild);
+    if (clip->flags & ~(uint32_t)FF_CLIP_DERIVED)
+        return FF_PACK_REFUSE("CLIP", &clip->flags, "clip %u: flags %x", index, clip->flags);
     return FF_OK;
 }
 
@@ -45,10 +50,13 @@ static ff_status check_plant(const ff_pack *pack, uint32_t index, ff_error *erro
     const float *wild = ff_pack_wild_float(plant->ball, 2, LIMIT_VALUE);
     if (!wild) wild = ff_pack_wild_float(&plant->yaw, 1, LIMIT_VALUE);
     if (!wild) wild = ff_pack_wild_float(&plant->slide, 1, LIMIT_VALUE);
+    if (!wild) wild = ff_pack_wild_float(&plant->level, 1, LIMIT_VALUE);
     if (wild) return FF_PACK_REFUSE("PLNT", wild, "plant %u: %g", index, (double)*wild);
     if (!(plant->confidence >= 0.0f && plant->confidence <= 1.0f))
         return FF_PACK_REFUSE("PLNT", &plant->confidence, "plant %u: confidence %g", index,
                               (double)plant->confidence);
+    if (plant->origin >= FF_PLANT_ORIGIN_COUNT)
+        return FF_PACK_REFUSE("PLNT", &plant->origin, "plant %u: origin %u", index, plant->origin);
     return FF_OK;
 }
 
@@ -56,6 +64,55 @@ static ff_status check_plant(const ff_pack *pack, uint32_t index, ff_error *erro
 static bool plant_known(const ff_pack *pack, uint32_t plant)
 {
     return plant < pack->plant_count || plant == UINT32_MAX;
+}
+
+/* Events of an action lie in its time, in order. */
+static ff_status check_events(const ff_pack *pack, uint32_t index, ff_error *error)
+{
+    const ff_pack_action *action = &pack->actions[index];
+    if (!ff_pack_range_fits(action->first_event, action->event_count, pack->event_count))
+        return FF_PACK_REFUSE("ACTN", &action->first_event, "action %u: events %u + %u of %u", index,
+                              action->first_event, action->event_count, pack->event_count);
+    float last = action->t_0 - SORTED_BY_TIME;
+    for (uint32_t i = 0; i < action->event_count; ++i) {
+        const ff_pack_event *event = &pack->events[action->first_event + i];
+        if (!(event->time >= last && event->time <= action->t_end + SORTED_BY_TIME))
+            return FF_PACK_REFUSE("EVNT", &event->time, "action %u: an event at %g s, after %g and up to %g",
+                                  index, (double)event->time, (double)last, (double)action->t_end);
+        if (event->foot > 1 || event->kind >= FF_EVENT_KIND_COUNT || event->plant >= pack->plant_count)
+            return FF_PACK_REFUSE("EVNT", &event->foot, "action %u: foot %u, kind %u, plant %u of %u", index,
+                                  event->foot, event->kind, event->plant, pack->plant_count);
+        last = event->time;
+    }
+    return FF_OK;
+}
+
+/* Successors of an action: nearest first, standing on a foot that stands. */
+static ff_status check_successors(const ff_pack *pack, uint32_t index, ff_error *error)
+{
+    const ff_pack_action *action = &pack->actions[index];
+    if (!ff_pack_range_fits(action->first_successor, action->successor_count, pack->successor_count))
+        return FF_PACK_REFUSE("ACTN", &action->first_successor, "action %u: successors %u + %u of %u", index,
+                              action->first_successor, action->successor_count, pack->successor_count);
+    float last = 0.0f;
+    for (uint32_t i = 0; i < action->successor_count; ++i) {
+        const ff_pack_successor *next = &pack->successors[action->first_successor + i];
+        if (next->action >= pack->action_count)
+            return FF_PACK_REFUSE("NEXT", &next->action, "action %u: successor %u of %u", index, next->action,
+                                  pack->action_count);
+        if (!(next->distance >= last && next->distance <= LIMIT_VALUE && next->cost >= 0.0f &&
+              next->cost <= LIMIT_VALUE))
+            return FF_PACK_REFUSE("NEXT", &next->distance,
+                                  "action %u: successor %u at %g m, after %g m, costs %g J/kg", index,
+                                  next->action, (double)next->distance, (double)last, (double)next->cost);
+        bool stands = (action->flags & FF_ACTION_TO_STANDING) && !(action->flags & FF_ACTION_WHOLE) &&
+                      (pack->actions[next->action].flags & FF_ACTION_FROM_STANDING);
+        if (pack->actions[next->action].support != action->swing && !stands)
+            return FF_PACK_REFUSE("NEXT", &next->action, "action %u: successor %u stands on the wrong foot",
+                                  index, next->action);
+        last = next->distance;
+    }
+    return FF_OK;
 }
 
 static ff_status check_action(const ff_pack *pack, uint32_t index, ff_error *error)
@@ -85,7 +142,8 @@ static ff_status check_action(const ff_pack *pack, uint32_t index, ff_error *err
     if (!plant_known(pack, action->support_plant) || !plant_known(pack, action->swing_plant))
         return FF_PACK_REFUSE("ACTN", &action->support_plant, "action %u: plants %u and %u of %u", index,
                               action->support_plant, action->swing_plant, pack->plant_count);
-    return FF_OK;
+    ff_status status = check_events(pack, index, error);
+    return status == FF_OK ? check_successors(pack, index, error) : status;
 }
 
 /* Tracks go with the frames after the examples': two feet each, or the pack has none at all. */

@@ -41,8 +41,10 @@ enum {
     FF_SECTION_GAIT = FF_TAG('G', 'A', 'I', 'T'),            /* ff_pack_gait: one, or none */
     FF_SECTION_GAIT_PATH = FF_TAG('G', 'P', 'T', 'H'),       /* ff_pack_gait_path: FF_GAIT_SAMPLES, or none */
     FF_SECTION_SHARP = FF_TAG('S', 'H', 'R', 'P'),           /* ff_pack_sharp */
+    FF_SECTION_EVENTS = FF_TAG('E', 'V', 'N', 'T'),     /* ff_pack_event: of actions, in order of time */
+    FF_SECTION_SUCCESSORS = FF_TAG('N', 'E', 'X', 'T'), /* ff_pack_successor: of actions, nearest first */
 };
-#define FF_PACK_SECTION_COUNT 22
+#define FF_PACK_SECTION_COUNT 24
 
 typedef struct ff_pack_header {
     uint64_t magic;
@@ -103,6 +105,9 @@ typedef struct ff_pack_frame {
     float hips[3]; /* forward (m), left (m), height (m) */
 } ff_pack_frame;
 
+/* A derived clip was made from a captured one for an action that no clip shows; source, licence and citation are that
+ * clip's. */
+enum { FF_CLIP_DERIVED = 1 };
 typedef struct ff_pack_clip {
     uint32_t name, source, licence, citation, tags;
     uint32_t stream;
@@ -123,7 +128,14 @@ typedef struct ff_pack_plant {
     float yaw;        /* rad */
     float slide;      /* m */
     float confidence; /* 0..1 */
+    float level;      /* m over the clip's floor: 0 on the floor itself, else a step, a box, a stone */
+    uint32_t origin;  /* FF_PLANT_*: who says so */
 } ff_pack_plant;
+enum {
+    FF_PLANT_FOUND,
+    FF_PLANT_WRITTEN,
+    FF_PLANT_ORIGIN_COUNT
+}; /* by the detector; by a person (override file) */
 
 /* Locomotion modes of Table 1 (Beacco et al. 2013). */
 enum {
@@ -140,9 +152,17 @@ enum {
     FF_MODE_COUNT
 };
 
-enum { FF_ACTION_MIRRORED = 1, FF_ACTION_ALPHA_UNDEFINED = 2, FF_ACTION_DERIVED = 4 };
+enum {
+    FF_ACTION_MIRRORED = 1,
+    FF_ACTION_ALPHA_UNDEFINED = 2,
+    FF_ACTION_DERIVED = 4,        /* made from a captured step or pose, not captured as such */
+    FF_ACTION_WHOLE = 8,          /* several steps, or a jump or a duck, that are played complete */
+    FF_ACTION_FROM_STANDING = 16, /* both feet stand at t_0 */
+    FF_ACTION_TO_STANDING =
+        32 /* both feet stand at t_end, the support foot where it stood at t_0, unless WHOLE */
+};
 
-/* A single step (or a whole platform action) with the annotation of Table 1. Frame S0 = the support foot's ball on
+/* A single step (or a whole action: a turn on the spot, a jump, a duck) with the annotation of Table 1. Frame S0 = the support foot's ball on
  * the ground at t_0 as origin, root heading at t_0 as forward axis; components are (forward, left). Mirrored
  * actions play the same stream frames with sides swapped; their record is already mirrored. */
 typedef struct ff_pack_action {
@@ -157,16 +177,37 @@ typedef struct ff_pack_action {
     float swing_displacement[2]; /* f: swing foot from its old plant to its new one, m */
     float alpha;                 /* rad, swing-relative step angle */
     float theta;                 /* rad, heading change, + = left */
-    float step_length, step_width;             /* m, ball to ball along and across the heading at t_0 */
-    float root_start[3], root_end[3];          /* a, b, heading in S0 */
-    float land[3];                             /* a, b, yaw of the new plant's ball in S0 */
-    float support_yaw;                         /* rad, of the support foot in S0 */
-    float energy;                              /* J/kg over the step: integral of e_s + e_w v^2 */
-    float flight[2];                           /* s in the clip, -1, -1 when a foot was always down */
-    float coarse_radius;                       /* m, cylinder round the root that holds all five colliders */
+    float step_length, step_width;    /* m, ball to ball along and across the heading at t_0 */
+    float root_start[3], root_end[3]; /* a, b, heading in S0 */
+    float land[3];                    /* a, b, yaw of the new plant's ball in S0 */
+    float support_yaw;                /* rad, of the support foot in S0 */
+    float energy;                     /* J/kg over the step: integral of e_s + e_w v^2 */
+    float flight[2];                  /* s in the clip, -1, -1 when a foot was always down */
+    float coarse_radius;              /* m, cylinder round the root that holds all five colliders */
+    float height;                     /* m, of the support plant over the clip's floor (its level) */
+    float rise;                       /* m, of the landing over the support plant: steps up and down */
     uint32_t first_collider, collider_samples; /* COLL: samples * FF_COLLIDER_COUNT elements */
     uint32_t support_plant, swing_plant;       /* into PLNT */
+    uint32_t first_event, event_count;         /* EVNT */
+    uint32_t first_successor, successor_count; /* NEXT */
 } ff_pack_action;
+
+/* What a foot does inside an action. The plant is in PLNT; a mirrored action's foot is the other one's. */
+enum { FF_EVENT_CONTACT, FF_EVENT_FLAT, FF_EVENT_HEEL_OFF, FF_EVENT_TOE_OFF, FF_EVENT_KIND_COUNT };
+typedef struct ff_pack_event {
+    float time; /* s, in the clip, as t_0 and t_end: from the file's first pose */
+    uint32_t foot, kind, plant;
+} ff_pack_event;
+
+/* An action that may follow another one: it stands on the foot that has just landed (or, where both actions stand at
+ * the joint, on either), its speed and turn are near (algorithms A.13) and so is its pose. A support foot that differs
+ * from the landed one, which only standing allows, is anchored where it stands. */
+typedef struct ff_pack_successor {
+    uint32_t action;
+    float
+        distance; /* m, root mean square of the joints over 5 frames round the joint, the support foot aligned */
+    float cost; /* J/kg that a planner is charged for the joint (footstep study, section 4.5) */
+} ff_pack_successor;
 
 enum {
     FF_COLLIDER_HEAD,
@@ -178,7 +219,7 @@ enum {
     FF_COLLIDER_COUNT
 };
 typedef struct ff_pack_collider {
-    float a, b, y; /* m, in S0 */
+    float a, b, y; /* m, in S0; y over the support plant's level */
 } ff_pack_collider;
 
 /* Gait classes are never blended with each other. */

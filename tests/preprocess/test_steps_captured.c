@@ -59,7 +59,7 @@ typedef struct foot_state {
     double speed;                    /* m/s, of the slower of heel and ball, over 25 ms */
 } foot_state;
 
-static foot_state look(const ff_rig *rig, const ff_motion *motion, int foot, int frame)
+static foot_state look(const ff_rig *rig, const ff_motion *motion, int foot, int frame, double level)
 {
     ff_vec3 rest[FF_BODY_COUNT], now[FF_BODY_COUNT], then[FF_BODY_COUNT];
     int reach = (int)(0.0125 / motion->frame_time + 0.5), n = motion->frame_count;
@@ -69,7 +69,7 @@ static foot_state look(const ff_rig *rig, const ff_motion *motion, int foot, int
     ff_motion_pose(rig, motion, frame, now, NULL);
     int ball = foot == FF_LEFT ? FF_ROLE_BALL_L : FF_ROLE_BALL_R;
     int heel = foot == FF_LEFT ? FF_BODY_HEEL_L : FF_BODY_HEEL_R;
-    foot_state s = {now[ball].y - rest[ball].y, now[heel].y - rest[heel].y, 0.0};
+    foot_state s = {now[ball].y - rest[ball].y - level, now[heel].y - rest[heel].y - level, 0.0};
     ff_motion_pose(rig, motion, from, now, NULL);
     ff_motion_pose(rig, motion, to, then, NULL);
     double seconds = (to - from) * motion->frame_time;
@@ -79,9 +79,9 @@ static foot_state look(const ff_rig *rig, const ff_motion *motion, int foot, int
 }
 
 /* Does the foot stand in this frame? Limits are those of the labels, with room for capture noise. */
-static bool stands(const ff_rig *rig, const ff_motion *motion, int foot, int frame, bool run)
+static bool stands(const ff_rig *rig, const ff_motion *motion, int foot, int frame, double level, bool run)
 {
-    foot_state s = look(rig, motion, foot, frame);
+    foot_state s = look(rig, motion, foot, frame, level);
     return s.speed < (run ? 1.0 : 0.7) && fabs(s.ball_height) < 0.04 && s.heel_height < (run ? 0.09 : 0.06);
 }
 
@@ -90,7 +90,7 @@ static bool just_came(const ff_rig *rig, const ff_motion *motion, int foot, int 
 {
     int reach = (int)(0.25 / motion->frame_time);
     for (int i = frame - reach > 0 ? frame - reach : 0; i < frame; ++i)
-        if (look(rig, motion, foot, i).speed > 0.6 || look(rig, motion, foot, i).heel_height > 0.03)
+        if (look(rig, motion, foot, i, 0.0).speed > 0.6 || look(rig, motion, foot, i, 0.0).heel_height > 0.03)
             return true;
     return false;
 }
@@ -124,14 +124,17 @@ static void steps_begin_on_one_foot_and_end_as_the_other_stands(void **state)
             const ff_action *a = &actions.items[k];
             if (a->record.mode == FF_MODE_IDLE) continue;
             bool run = a->record.speed > 1.8f;
-            bool start = stands(&rig, &motion, (int)a->record.support, a->first_frame, run);
-            bool end = stands(&rig, &motion, (int)a->record.swing, a->last_frame, run);
-            bool came = just_came(&rig, &motion, (int)a->record.swing, a->last_frame);
+            double level = (double)a->record.height, landed = level + (double)a->record.rise;
+            bool start = stands(&rig, &motion, (int)a->record.support, a->first_frame, level, run);
+            bool end = stands(&rig, &motion, (int)a->record.swing, a->last_frame, landed, run);
+            /* Who comes to standing landed a while ago. */
+            bool came = (a->record.flags & FF_ACTION_TO_STANDING) ||
+                        just_came(&rig, &motion, (int)a->record.swing, a->last_frame);
             ++steps;
             good += start && end && came;
             if (!(start && end && came)) {
-                foot_state s = look(&rig, &motion, (int)a->record.support, a->first_frame);
-                foot_state e = look(&rig, &motion, (int)a->record.swing, a->last_frame);
+                foot_state s = look(&rig, &motion, (int)a->record.support, a->first_frame, level);
+                foot_state e = look(&rig, &motion, (int)a->record.swing, a->last_frame, landed);
                 print_message(
                     "%s %d to %d: mode %u support %.2f m/s %.3f %.3f, landing %.2f m/s %.3f %.3f%s\n",
                     clips[i]->name, a->first_frame, a->last_frame, a->record.mode, s.speed, s.ball_height,
