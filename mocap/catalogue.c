@@ -3,6 +3,7 @@
 #include "mocap/catalogue_build.h"
 #include "runtime/core/base/fail.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -27,6 +28,14 @@ char *ff_catalogue_keep_text(ff_catalogue_builder *builder, const char *text)
     size_t size = strlen(text) + 1;
     char *kept = ff_catalogue_keep(builder, size);
     return kept ? memcpy(kept, text, size) : NULL;
+}
+
+char *ff_catalogue_keep_joined(ff_catalogue_builder *builder, const char *a, const char *b, const char *c)
+{
+    size_t size = strlen(a) + strlen(b) + strlen(c) + 1;
+    char *kept = ff_catalogue_keep(builder, size);
+    if (kept) snprintf(kept, size, "%s%s%s", a, b, c);
+    return kept;
 }
 
 char *ff_catalogue_keep_path(ff_catalogue_builder *builder, const char *folder, const char *name)
@@ -61,13 +70,6 @@ bool ff_catalogue_add(ff_catalogue_builder *builder, ff_catalogue_entry entry)
     return added != NULL;
 }
 
-bool ff_catalogue_add_path(ff_catalogue_builder *builder, char *path)
-{
-    ff_catalogue_entry entry = ff_catalogue_default();
-    entry.path = path;
-    return ff_catalogue_add(builder, entry);
-}
-
 static bool ends_in(const char *path, const char *ending)
 {
     size_t length = strlen(path), tail = strlen(ending);
@@ -76,7 +78,7 @@ static bool ends_in(const char *path, const char *ending)
 
 bool ff_is_clip_path(const char *path)
 {
-    return ends_in(path, ".amc") || ends_in(path, ".bvh");
+    return ends_in(path, ".amc") || ends_in(path, ".bvh") || ends_in(path, ".gltf") || ends_in(path, ".glb");
 }
 
 static ff_status fail_memory(ff_error *error)
@@ -103,10 +105,13 @@ static ff_status add_input(ff_catalogue_builder *builder, const char *input, ff_
     if (ends_in(input, ".json")) return ff_catalogue_add_json(builder, input, NULL, error);
     const char *placed = strstr(input, ".json:");
     if (placed) return add_placed_catalogue(builder, input, placed + 5, error);
-    if (ff_is_clip_path(input))
-        return ff_catalogue_add_path(builder, ff_catalogue_keep_text(builder, input)) ? FF_OK
-                                                                                      : fail_memory(error);
-    ff_fail(error, FF_ERR_ARGUMENT, "neither a catalogue (.json), a folder nor a clip (.amc, .bvh)");
+    if (ff_is_clip_path(input) || input[ff_clip_file_length(input)] == '#') {
+        ff_catalogue_entry entry = ff_catalogue_default();
+        entry.path = ff_catalogue_keep_text(builder, input);
+        return ff_catalogue_add_clips(builder, entry, error);
+    }
+    ff_fail(error, FF_ERR_ARGUMENT,
+            "neither a catalogue (.json), a folder nor a clip (.amc, .bvh, .gltf, .glb)");
     ff_error_in_file(error, input);
     return FF_ERR_ARGUMENT;
 }
@@ -141,7 +146,8 @@ ff_status ff_catalogue_read(const char *const *inputs, int input_count, ff_catal
     out->count = (int)builder.entries.count;
     out->memory = builder.memory;
     if (status == FF_OK && out->count == 0)
-        status = ff_fail(error, FF_ERR_NO_DATA, "no clip to read: no .amc or .bvh in what was given");
+        status =
+            ff_fail(error, FF_ERR_NO_DATA, "no clip to read: no .amc, .bvh, .gltf or .glb in what was given");
     if (status != FF_OK) {
         ff_catalogue_free(out);
         return status;

@@ -31,7 +31,9 @@ static ff_status add_files(ff_catalogue_builder *builder, pending here, ff_array
     DIR *directory = opendir(here.path);
     if (!directory) return fail_folder(here.path, error);
     bool enough_memory = true;
-    for (const struct dirent *file; enough_memory && (file = readdir(directory)) != NULL;) {
+    ff_status status = FF_OK;
+    for (const struct dirent *file;
+         enough_memory && status == FF_OK && (file = readdir(directory)) != NULL;) {
         struct stat info;
         if (file->d_name[0] == '.') continue;
         char *path = ff_catalogue_keep_path(builder, here.path, file->d_name);
@@ -42,11 +44,13 @@ static ff_status add_files(ff_catalogue_builder *builder, pending here, ff_array
             if (more) *more = (pending){path, here.depth + 1};
             enough_memory = more || here.depth >= DEEPEST;
         } else if (ff_is_clip_path(path)) {
-            enough_memory = ff_catalogue_add_path(builder, path);
+            ff_catalogue_entry entry = ff_catalogue_default();
+            entry.path = path;
+            status = ff_catalogue_add_clips(builder, entry, error);
         }
     }
     closedir(directory);
-    return enough_memory ? FF_OK
+    return enough_memory ? status
                          : ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the files of %s", here.path);
 }
 

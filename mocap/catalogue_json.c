@@ -4,7 +4,9 @@
 #include "runtime/tool/json.h"
 
 #include <limits.h>
+#include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 typedef struct reader {
@@ -148,6 +150,8 @@ static ff_status read_common(reader *r, json_t *object, ff_catalogue_entry *entr
     if (status == FF_OK) status = read_up(r, object, &entry->options.up);
     if (status == FF_OK) status = ff_json_bool(&r->json, object, "strict", &entry->options.strict, r->error);
     if (status == FF_OK) status = ff_json_bool(&r->json, object, "mirror", &entry->mirror, r->error);
+    if (status == FF_OK)
+        status = ff_json_bool(&r->json, object, "in_place", &entry->options.in_place, r->error);
     if (status == FF_OK) status = read_tags(r, object, &entry->tags);
     if (status == FF_OK) status = read_mode(r, object, &entry->mode);
     if (status == FF_OK) status = read_roles(r, object, &entry->options);
@@ -166,11 +170,30 @@ static ff_status find_file(reader *r, const json_t *object, const char *key, con
         "cannot read %s; say where the clips are with \"folder\" or CATALOGUE.json:FOLDER", *out);
 }
 
+/* One animation of a glTF file, by name or index: it becomes FILE#ANIMATION. */
+static ff_status read_animation(reader *r, const json_t *object, char **path)
+{
+    const json_t *value = json_object_get(object, "animation");
+    if (!value) return FF_OK;
+    const char *ending = strrchr(*path, '.');
+    if (strcasecmp(ending, ".gltf") != 0 && strcasecmp(ending, ".glb") != 0)
+        return ff_json_fail_key(&r->json, object, "animation", r->error,
+                                "animation: only a glTF file has several");
+    char index[16] = "";
+    bool number =
+        json_is_integer(value) && json_integer_value(value) >= 0 && json_integer_value(value) < 100000;
+    if (number) snprintf(index, sizeof index, "%d", (int)json_integer_value(value));
+    if (!number && !json_is_string(value))
+        return ff_json_fail(&r->json, value, r->error, "animation: expected a name or an index from 0");
+    *path = ff_catalogue_keep_joined(r->builder, *path, "#", number ? index : json_string_value(value));
+    return *path ? FF_OK : fail_memory(r);
+}
+
 static ff_status read_clip(reader *r, json_t *object, const ff_catalogue_entry *defaults)
 {
-    static const char *const keys[] = {"file",  "skeleton", "trim",     "use",    "note", "unit",
-                                       "fps",   "up",       "strict",   "mirror", "tags", "mode",
-                                       "roles", "licence",  "citation", NULL};
+    static const char *const keys[] = {"file",  "skeleton", "trim",     "use",      "note",      "unit",
+                                       "fps",   "up",       "strict",   "mirror",   "tags",      "mode",
+                                       "roles", "licence",  "citation", "in_place", "animation", NULL};
     if (!json_is_object(object))
         return ff_json_fail(&r->json, object, r->error, "clips: expected objects { \"file\": ... }");
     ff_status status = ff_json_only_keys(&r->json, object, keys, r->error);
@@ -183,8 +206,8 @@ static ff_status read_clip(reader *r, json_t *object, const ff_catalogue_entry *
     if (status != FF_OK) return status;
     if (!file) return ff_json_fail(&r->json, object, r->error, "the clip has no \"file\"");
     if (!ff_is_clip_path(file))
-        return ff_json_fail_key(&r->json, object, "file", r->error, "\"%s\" ends in neither .amc nor .bvh",
-                                file);
+        return ff_json_fail_key(&r->json, object, "file", r->error,
+                                "\"%s\" is no clip (.amc, .bvh, .gltf, .glb)", file);
     ff_catalogue_entry entry = *defaults;
     status = read_common(r, object, &entry);
     if (status == FF_OK) status = read_trim(r, object, &entry);
@@ -195,8 +218,8 @@ static ff_status read_clip(reader *r, json_t *object, const ff_catalogue_entry *
         status = find_file(r, object, "skeleton", skeleton, &path);
         entry.options.skeleton = path;
     }
-    if (status != FF_OK) return status;
-    return ff_catalogue_add(r->builder, entry) ? FF_OK : fail_memory(r);
+    if (status == FF_OK) status = read_animation(r, object, &entry.path);
+    return status == FF_OK ? ff_catalogue_add_clips(r->builder, entry, r->error) : status;
 }
 
 /* "folder" is relative to the folder that the catalogue is in; one from the command line is relative to the caller's. */
@@ -217,8 +240,9 @@ static ff_status set_folder(reader *r, const char *catalogue_path, const char *g
 
 static ff_status read_root(reader *r, const char *path, const char *folder)
 {
-    static const char *const keys[] = {"folder", "note", "clips", "unit",  "fps",     "up",       "strict",
-                                       "mirror", "tags", "mode",  "roles", "licence", "citation", NULL};
+    static const char *const keys[] = {"folder", "note",    "clips",    "unit",     "fps",
+                                       "up",     "strict",  "mirror",   "tags",     "mode",
+                                       "roles",  "licence", "citation", "in_place", NULL};
     json_t *root = r->json.root, *clips = json_object_get(root, "clips");
     ff_status status = ff_json_only_keys(&r->json, root, keys, r->error);
     const char *note = NULL;

@@ -141,10 +141,45 @@ static ff_status set_unit(ff_clip *clip, const ff_load_options *options, double 
     return message[0] ? odd_unit(clip, options->strict, error, message) : FF_OK;
 }
 
-ff_status ff_clip_finish(ff_clip *clip, const ff_load_options *options, double stated_m, ff_error *error)
+/* Characters of games are often as large as the artist liked: a person's legs are taken for theirs. */
+static ff_status set_size(ff_clip *clip, const ff_load_options *options, ff_error *error)
+{
+    double leg = leg_length(clip), unit_m = 1.0;
+    char message[256] = "";
+    if (options->unit_m > 0.0 || human(leg) || !(leg > 0.0)) return set_unit(clip, options, unit_m, error);
+    const struct unit *likely = likeliest_unit(leg);
+    if (human(leg * likely->metres)) {
+        unit_m = likely->metres;
+        snprintf(message, sizeof message,
+                 "legs are %.3g m long; the unit is taken to be '%s', which makes them %.2f m", leg,
+                 likely->name, leg * unit_m);
+    } else {
+        unit_m = TYPICAL_LEG / leg;
+        snprintf(
+            message, sizeof message,
+            "legs are %.3g m long, not a person's: scaled by %.3g to legs of %.2f m (a \"unit\" stops that)",
+            leg, unit_m, TYPICAL_LEG);
+    }
+    scale(clip, unit_m);
+    return odd_unit(clip, options->strict, error, message);
+}
+
+/* Frame rate, axes and roles: what every format needs before its unit can be judged. */
+static ff_status finish_joints(ff_clip *clip, const ff_load_options *options, ff_error *error)
 {
     clip->frame_time = options->fps > 0.0 ? 1.0 / options->fps : plain_frame_time(clip->frame_time);
     if (options->up == 'z') turn_z_up(clip);
-    ff_status status = ff_roles_find(clip, options->overrides, options->override_count, error);
+    return ff_roles_find(clip, options->overrides, options->override_count, error);
+}
+
+ff_status ff_clip_finish_sized(ff_clip *clip, const ff_load_options *options, ff_error *error)
+{
+    ff_status status = finish_joints(clip, options, error);
+    return status == FF_OK ? set_size(clip, options, error) : status;
+}
+
+ff_status ff_clip_finish(ff_clip *clip, const ff_load_options *options, double stated_m, ff_error *error)
+{
+    ff_status status = finish_joints(clip, options, error);
     return status == FF_OK ? set_unit(clip, options, stated_m, error) : status;
 }

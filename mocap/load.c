@@ -17,6 +17,15 @@ ff_load_options ff_load_options_default(void)
     return (ff_load_options){.up = 'y'};
 }
 
+size_t ff_clip_file_length(const char *path)
+{
+    for (const char *hash = strchr(path, '#'); hash; hash = strchr(hash + 1, '#'))
+        if ((hash - path > 4 && strncasecmp(hash - 4, ".glb", 4) == 0) ||
+            (hash - path > 5 && strncasecmp(hash - 5, ".gltf", 5) == 0))
+            return (size_t)(hash - path);
+    return strlen(path);
+}
+
 static const char *ending_of(const char *path)
 {
     const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
@@ -83,42 +92,76 @@ static ff_status read_amc(const ff_file *file, const char *path, const ff_load_o
     return status;
 }
 
+/* NAME of NAME.bvh, NAME#ANIMATION of NAME.glb#ANIMATION. */
 static ff_status name_clip(ff_clip *clip, const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *base = slash ? slash + 1 : path;
+    size_t file = ff_clip_file_length(path), base = file;
+    while (base > 0 && path[base - 1] != '/')
+        --base;
+    size_t stem = file;
+    while (stem > base && path[stem - 1] != '.')
+        --stem;
+    stem = stem > base + 1 ? stem - 1 - base : file - base;
     clip->source = strdup(path);
-    clip->name = strndup(base, (size_t)(ending_of(base) - base));
-    return clip->source && clip->name ? FF_OK : FF_ERR_NO_MEMORY;
+    clip->name = malloc(stem + strlen(path + file) + 1);
+    if (!clip->source || !clip->name) return FF_ERR_NO_MEMORY;
+    memcpy(clip->name, path + base, stem);
+    memcpy(clip->name + stem, path + file, strlen(path + file) + 1);
+    return FF_OK;
+}
+
+enum format { UNKNOWN, AMC, BVH, GLTF };
+
+static enum format format_of(const char *file)
+{
+    static const struct {
+        const char *ending;
+        enum format format;
+    } known[] = {{".amc", AMC}, {".bvh", BVH}, {".gltf", GLTF}, {".glb", GLTF}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i)
+        if (strcasecmp(ending_of(file), known[i].ending) == 0) return known[i].format;
+    return UNKNOWN;
+}
+
+/* path as given, file the part of it that names the file. */
+static ff_status read_clip(const char *path, const char *file, const ff_load_options *options, ff_clip *out,
+                           ff_error *error)
+{
+    enum format format = format_of(file);
+    if (format == UNKNOWN)
+        return ff_fail(error, FF_ERR_UNSUPPORTED,
+                       "unknown kind of clip '%.20s', expected .amc, .bvh, .gltf or .glb", ending_of(file));
+    ff_file bytes;
+    ff_status status = ff_file_map(file, &bytes, error);
+    if (status != FF_OK) return status;
+    const char *animation = path[strlen(file)] == '#' ? path + strlen(file) + 1 : NULL;
+    double stated_m = 0.0;
+    if (format == AMC) {
+        status = read_amc(&bytes, file, options, &stated_m, out, error);
+    } else if (format == BVH) {
+        status = ff_bvh_parse(bytes.data, bytes.size, file, options, out, error);
+    } else {
+        status = ff_gltf_parse(bytes.data, bytes.size, file, animation, options, out, error);
+    }
+    ff_file_unmap(&bytes);
+    if (status == FF_OK) status = name_clip(out, path);
+    if (status == FF_ERR_NO_MEMORY) return ff_fail(error, status, "no memory for the clip");
+    if (status != FF_OK) return status;
+    if (format != GLTF) return ff_clip_finish(out, options, stated_m, error);
+    status = ff_clip_finish_sized(out, options, error);
+    return status == FF_OK && !options->in_place ? ff_clip_restore_travel(out, options->strict, error)
+                                                 : status;
 }
 
 ff_status ff_clip_load(const char *path, const ff_load_options *options, ff_clip *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
-    const char *ending = ending_of(path);
-    bool amc = strcasecmp(ending, ".amc") == 0;
-    if (!amc && strcasecmp(ending, ".bvh") != 0) {
-        ff_fail(error, FF_ERR_UNSUPPORTED, "unknown kind of clip '%s', expected .amc or .bvh", ending);
-        ff_error_in_file(error, path);
-        return FF_ERR_UNSUPPORTED;
-    }
-    ff_file file;
-    ff_status status = ff_file_map(path, &file, error);
-    if (status != FF_OK) return status;
-    double stated_m = 0.0;
-    if (amc) {
-        status = read_amc(&file, path, options, &stated_m, out, error);
-    } else {
-        status = ff_bvh_parse(file.data, file.size, path, options, out, error);
-    }
-    ff_file_unmap(&file);
-    if (status != FF_OK) return status;
-    status = name_clip(out, path);
-    if (status != FF_OK) ff_fail(error, status, "no memory for the clip's name");
-    if (status == FF_OK) status = ff_clip_finish(out, options, stated_m, error);
-    if (status != FF_OK) {
-        ff_error_in_file(error, path);
-        ff_clip_free(out);
-    }
+    char *file = strndup(path, ff_clip_file_length(path));
+    if (!file) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the clip's name");
+    ff_status status = read_clip(path, file, options, out, error);
+    free(file);
+    if (status == FF_OK) return FF_OK;
+    ff_error_in_file(error, path);
+    ff_clip_free(out);
     return status;
 }

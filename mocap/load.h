@@ -15,15 +15,20 @@ typedef struct ff_load_options {
     char up;       /* 'y' or 'z' */
     bool strict;   /* oddities that are worked around become errors */
     const char *skeleton; /* ASF of an AMC; NULL = look beside it (NAME.asf, or the part before '_') */
+    bool in_place;        /* glTF: leave an animation that walks on the spot there */
     const ff_role_override *overrides;
     int override_count;
 } ff_load_options;
 
 ff_load_options ff_load_options_default(void);
 
-/* Read path (.amc, .bvh by ending, case-insensitive). On failure *out is zeroed and error says file:line:column.
- * The caller frees *out with ff_clip_free. */
+/* Read path (.amc, .bvh, .gltf, .glb by ending, case-insensitive). FILE.glb#ANIMATION is one animation of a glTF file, by
+ * name or index; without it the first is taken. On failure *out is zeroed and error says file:line:column. The caller
+ * frees *out with ff_clip_free. */
 ff_status ff_clip_load(const char *path, const ff_load_options *options, ff_clip *out, ff_error *error);
+
+/* How much of a path is the file's: all of it, but for the #ANIMATION after .gltf or .glb. */
+size_t ff_clip_file_length(const char *path);
 
 /* Metres per file unit of a preset ("cmu", "m", "cm", "inch"), or 0 for an unknown name. */
 double ff_unit_preset(const char *name);

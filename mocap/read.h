@@ -42,9 +42,21 @@ void ff_asf_free(ff_asf *asf);
 ff_status ff_amc_parse(const ff_asf *asf, const char *data, size_t size, const char *name,
                        const ff_load_options *options, ff_clip *out, ff_error *error);
 
+/* One animation of a glTF document (NULL = the only or first one, else a name or an index in digits), at options->fps or
+ * 60 frames/s from its first key on. Buffers beside the file are looked for in the folder of name. */
+ff_status ff_gltf_parse(const char *data, size_t size, const char *name, const char *animation,
+                        const ff_load_options *options, ff_clip *out, ff_error *error);
+
 /* Bring what a reader returned into metres with Y up: find roles and the unit (stated_m is what the file
  * says a unit is, 0 = nothing), set the frame time. */
 ff_status ff_clip_finish(ff_clip *clip, const ff_load_options *options, double stated_m, ff_error *error);
+
+/* The same for a format in metres whose characters need not be of human size: others are scaled to a person's legs. */
+ff_status ff_clip_finish_sized(ff_clip *clip, const ff_load_options *options, ff_error *error);
+
+/* An animation that walks on the spot (planted feet slide) is moved so that planted feet stay, and one that also ends as
+ * it began is repeated, so that whole steps can be cut from it (in_place.c). Both are warnings, or errors when strict. */
+ff_status ff_clip_restore_travel(ff_clip *clip, bool strict, ff_error *error);
 
 /* How many leading frames are a rest pose that was put before the motion. */
 int ff_clip_count_rest_frames(const ff_clip *clip);

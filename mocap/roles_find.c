@@ -50,6 +50,48 @@ static int farthest_tip(const ff_clip *clip, int joint)
     return best;
 }
 
+static int common_ancestor(const ff_clip *clip, int a, int b)
+{
+    while (a != b && a >= 0 && b >= 0) {
+        if (a > b) {
+            a = parent_of(clip, a);
+        } else {
+            b = parent_of(clip, b);
+        }
+    }
+    return a == b ? a : -1;
+}
+
+/* The joint below another one on the way to its farthest tip, or -1: a hand whose fingers begin at the forearm, a foot
+ * that is only the shin's end. */
+static int next_joint(const ff_clip *clip, int joint)
+{
+    int tip = farthest_tip(clip, joint);
+    while (tip >= 0 && parent_of(clip, tip) != joint)
+        tip = parent_of(clip, tip);
+    return tip;
+}
+
+/* A "root" under everything is the hips only where the legs hang from it. */
+static void lift_hips(ff_clip *clip)
+{
+    int hips = ff_clip_find(clip, FF_ROLE_HIPS), left = ff_clip_find(clip, FF_ROLE_HIP_L);
+    int right = ff_clip_find(clip, FF_ROLE_HIP_R);
+    int legs = left >= 0 && right >= 0 ? common_ancestor(clip, left, right) : -1;
+    if (hips < 0 || legs <= hips || !is_below(clip, legs, hips) || clip->joints[legs].role != FF_ROLE_NONE)
+        return;
+    clip->joints[hips].role = FF_ROLE_NONE;
+    clip->joints[legs].role = FF_ROLE_HIPS;
+}
+
+static void complete_limbs(ff_clip *clip)
+{
+    static const ff_role above[4] = {FF_ROLE_ELBOW_L, FF_ROLE_ELBOW_R, FF_ROLE_KNEE_L, FF_ROLE_KNEE_R};
+    for (int i = 0; i < 4; ++i) /* wrist and ankle follow elbow and knee */
+        if (ff_clip_find(clip, above[i] + 1) < 0)
+            give(clip, next_joint(clip, ff_clip_find(clip, above[i])), above[i] + 1);
+}
+
 static void complete_foot(ff_clip *clip, ff_role ankle_role, ff_role ball_role, ff_role toe_role)
 {
     int ankle = ff_clip_find(clip, ankle_role);
@@ -63,18 +105,6 @@ static void complete_foot(ff_clip *clip, ff_role ankle_role, ff_role ball_role, 
         if (!clip->joints[ball].end_site && !is_leaf(clip, ball)) give(clip, ball, ball_role);
     }
     give(clip, tip, toe_role);
-}
-
-static int common_ancestor(const ff_clip *clip, int a, int b)
-{
-    while (a != b && a >= 0 && b >= 0) {
-        if (a > b) {
-            a = parent_of(clip, a);
-        } else {
-            b = parent_of(clip, b);
-        }
-    }
-    return a == b ? a : -1;
 }
 
 /* Never turned where it is looked at: a bone without degrees of freedom, there only to bridge a distance. */
@@ -119,6 +149,8 @@ static void complete_trunk(ff_clip *clip)
 
 void ff_roles_complete(ff_clip *clip)
 {
+    lift_hips(clip);
+    complete_limbs(clip);
     complete_foot(clip, FF_ROLE_ANKLE_L, FF_ROLE_BALL_L, FF_ROLE_TOE_L);
     complete_foot(clip, FF_ROLE_ANKLE_R, FF_ROLE_BALL_R, FF_ROLE_TOE_R);
     complete_trunk(clip);
@@ -159,6 +191,7 @@ static int find_joint(const ff_clip *clip, const char *name)
 ff_status ff_roles_find(ff_clip *clip, const ff_role_override *overrides, int override_count, ff_error *error)
 {
     ff_roles_by_name(clip);
+    complete_limbs(clip);
     if (first_missing(clip) != FF_ROLE_NONE) ff_roles_by_shape(clip);
     bool seen[FF_CLIP_MAX_JOINTS] = {false};
     for (int i = 0; i < override_count; ++i) {

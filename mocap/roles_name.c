@@ -1,7 +1,7 @@
 /* Roles by name. A name is split into a side and a base ("mixamorig:LeftUpLeg" = left + "upleg", "lfemur" = left +
  * "femur", "Bip01 R Thigh" = right + "thigh", "UpperLeg_L" = left + "upperleg"), and the base is looked up. Known to
  * work: CMU's ASF, its BVH conversions (cgspeed's and the ones with rButtock), Mixamo, 3ds max Biped, LAFAN1,
- * Bandai-Namco, Xsens, Blender's Rigify and plain English. */
+ * Bandai-Namco, Xsens, Blender's Rigify, VRM, KayKit, Quaternius, what Sketchfab makes of them, and plain English. */
 #include "mocap/roles_find.h"
 
 #include <ctype.h>
@@ -41,6 +41,8 @@ static const base_entry bases[] = {
     {"ball", FF_ROLE_BALL_L, true, 0},         {"toebase", FF_ROLE_BALL_L, true, 0},
     {"toe", FF_ROLE_BALL_L, true, 0},          {"toes", FF_ROLE_BALL_L, true, 0},
     {"toe0", FF_ROLE_BALL_L, true, 0},         {"forefoot", FF_ROLE_BALL_L, true, 0},
+    {"armupper", FF_ROLE_SHOULDER_L, true, 0}, {"armlower", FF_ROLE_ELBOW_L, true, 0},
+    {"legupper", FF_ROLE_HIP_L, true, 0},      {"leglower", FF_ROLE_KNEE_L, true, 0},
 };
 enum { BASE_COUNT = sizeof bases / sizeof bases[0] };
 
@@ -53,8 +55,9 @@ static const base_entry *find_base(const char *base, bool sided)
 
 static bool is_rig_prefix(const char *word)
 {
-    static const char *const prefixes[] = {"bip", "bip01", "bip001", "mixamorig", "character1", "joint",
-                                           "def", "cc",    "base",   "b",         "bone",       "jnt"};
+    static const char *const prefixes[] = {"bip",   "bip01", "bip001", "mixamorig", "character1",
+                                           "joint", "def",   "cc",     "base",      "b",
+                                           "bone",  "jnt",   "j"};
     for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; ++i)
         if (strcmp(word, prefixes[i]) == 0) return true;
     return false;
@@ -64,6 +67,12 @@ static int side_of(const char *word)
 {
     if (strcmp(word, "l") == 0 || strcmp(word, "left") == 0) return 1;
     return strcmp(word, "r") == 0 || strcmp(word, "right") == 0 ? -1 : 0;
+}
+
+/* ".001" of Blender's copies, "_065" that Sketchfab puts behind every name; "toe0" and "leg_1" are names. */
+static bool is_serial_number(const char *word)
+{
+    return strlen(word) >= 2 && strspn(word, "0123456789") == strlen(word);
 }
 
 /* Take one word (a run of letters and digits without a change from lower to upper case) off the name, in lower case. */
@@ -111,7 +120,7 @@ static parsed_name parse(const char *text)
         int side = side_of(word);
         if (side != 0 && name.side == 0) {
             name.side = side;
-        } else if (!(length == 0 && is_rig_prefix(word))) {
+        } else if (!(length == 0 && is_rig_prefix(word)) && !is_serial_number(word)) {
             size_t more = strlen(word);
             memcpy(name.base + length, word, more + 1);
             length += more;

@@ -1,3 +1,4 @@
+#define _POSIX_C_SOURCE 200809L
 #include "preprocess/build_clip.h"
 
 #include "mocap/generator/generator.h"
@@ -47,7 +48,10 @@ static ff_status trim(ff_clip *clip, int first, int last, ff_error *error)
 static ff_status hash_file(const char *path, uint64_t *hash, ff_error *error)
 {
     ff_file file;
-    ff_status status = ff_file_map(path, &file, error);
+    char *name = strndup(path, ff_clip_file_length(path));
+    if (!name) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the name of %s", path);
+    ff_status status = ff_file_map(name, &file, error);
+    free(name);
     if (status != FF_OK) return status;
     *hash = XXH64(file.data, file.size, 0);
     ff_file_unmap(&file);

@@ -147,7 +147,7 @@ static void wrong_catalogues_are_refused_with_their_line(void **state)
         {"{\n }", 1, "list of clips"},
         {"{ \"clips\": [\n 3 ] }", 2, "objects"},
         {"{ \"clips\": [\n {\n} ] }", 2, "no \"file\""},
-        {"{ \"clips\": [\n {\n\"file\": \"b.fbx\" } ] }", 3, "neither .amc nor .bvh"},
+        {"{ \"clips\": [\n {\n\"file\": \"b.fbx\" } ] }", 3, "no clip (.amc"},
         {"{ \"clips\": [\n {\n\"file\": \"none.bvh\" } ] }", 3, "none.bvh"},
         {"{ \"clips\": [ { \"file\": \"a_02.BVH\",\n \"unit\": \"feet\" } ] }", 2, "unit"},
         {"{ \"clips\": [ { \"file\": \"a_02.BVH\",\n \"unit\": -1 } ] }", 2, "unit"},
