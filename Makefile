@@ -35,7 +35,7 @@ warnings := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
 # No contraction and no extra precision: the same bits from every compiler (runtime/README.md, determinism).
 # Hidden: the shared library shows what footfall.h declares and nothing else.
 common   := -g -I. -MMD -MP -ffp-contract=off -fPIC -fvisibility=hidden -pthread $(flags_$(config))
-eigen    := $(patsubst -I%,-isystem %,$(shell pkg-config --cflags eigen3))
+eigen    := $(patsubst -I%,-isystem %,$(shell pkg-config --cflags eigen3 2>/dev/null))
 CFLAGS_ALL   := -std=c17 $(warnings) $(common) $(CFLAGS)
 CXXFLAGS_ALL := -std=c++17 -Wall -Wextra -Wshadow -Werror $(common) -isystem /usr/include/opencv4 $(eigen) $(CXXFLAGS)
 LDFLAGS_ALL  := -pthread -Wl,--as-needed $(flags_$(config)) $(LDFLAGS)
