@@ -4,12 +4,14 @@
 #include "preprocess/clean_command.h"
 #include "preprocess/plants_command.h"
 #include "preprocess/report.h"
+#include "preprocess/steps_command.h"
 #include "runtime/tool/command_line.h"
 
 static const ff_subcommand commands[] = {
     {"build", "make a motion pack from clips", ff_build_command},
     {"inspect", "say what is in a motion pack", ff_inspect_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
+    {"steps", "how clips are walked, in numbers", ff_steps_command},
     {"clean", "measure what cleaning up the feet does to clips", ff_clean_command},
     {"generate", "write the built-in clips", ff_generate_command},
     {"report", "show a motion pack as one HTML page", ff_report_command},

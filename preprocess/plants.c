@@ -19,6 +19,7 @@ static const double WALKING = 1.85, RUNNING = 2.15;
 
 /* m: a foot this far off the plane stands on a level of its own: captured feet on a level floor are within 3 cm. */
 static const double OWN_LEVEL = 0.045;
+static const double GLIMPSE = 0.018; /* s */
 /* m: a foot that jumps this far was not standing while it did. */
 static const double TORN = 0.08;
 
@@ -146,6 +147,16 @@ static double running_share(const search *s, const ff_contact *c)
     return ff_clamp((speed - WALKING) / (RUNNING - WALKING), 0.0, 1.0);
 }
 
+/* Too little of a swing at the clip's start to tell that it was one, and of a contact at its end. */
+static void mind_ends(search *s, int foot)
+{
+    ff_contact *contacts = s->contacts[foot];
+    int *count = &s->count[foot], last = s->feet[foot].count - 1;
+    double glimpse = GLIMPSE * s->feet[foot].rate;
+    if (*count > 0 && contacts[0].first <= glimpse) contacts[0].first = 0;
+    if (*count > 0 && last - contacts[*count - 1].first + 1 <= glimpse) --*count;
+}
+
 static void refine_foot(search *s, int foot)
 {
     ff_contact *contacts = s->contacts[foot];
@@ -155,6 +166,7 @@ static void refine_foot(search *s, int foot)
         int next = c + 1 < count ? contacts[c + 1].first : s->feet[foot].count;
         ff_contact_refine(&s->feet[foot], previous, next, running_share(s, &contacts[c]), &contacts[c]);
     }
+    mind_ends(s, foot);
 }
 
 /* Is the foot, or the body it belongs to, somewhere else after this break? */
@@ -272,7 +284,9 @@ static ff_plant make_plant(search *s, int foot, const ff_contact *c)
 static int by_start(const void *x, const void *y)
 {
     const ff_plant *p = x, *q = y;
-    return p->start != q->start ? (p->start > q->start) - (p->start < q->start) : p->foot - q->foot;
+    if (p->start != q->start) return (p->start > q->start) - (p->start < q->start);
+    /* Of two that the clip's start cuts, the one that leaves first came first. */
+    return p->end != q->end ? (p->end > q->end) - (p->end < q->end) : p->foot - q->foot;
 }
 
 static ff_status collect(search *s, ff_plants *out, ff_error *error)

@@ -1,10 +1,7 @@
 #include "preprocess/plants_command.h"
 
-#include "mocap/catalogue.h"
-#include "preprocess/plants.h"
-#include "runtime/core/base/fail.h"
+#include "preprocess/each_clip.h"
 #include "runtime/tool/command_line.h"
-#include "runtime/tool/progress.h"
 
 #include <stdio.h>
 
@@ -46,47 +43,17 @@ static void print_table(const ff_clip *clip, const ff_plants *plants)
     }
 }
 
-static ff_status print_clip(const ff_catalogue_entry *entry, plants_layout layout, ff_error *error)
+static ff_status print_clip(const ff_seen_clip *seen, void *context, ff_error *error)
 {
-    ff_clip clip;
-    ff_status status = ff_clip_load(entry->path, &entry->options, &clip, error);
-    if (status != FF_OK) return status;
-    ff_plants plants;
-    ff_breaks breaks;
-    status = ff_breaks_repair(&clip, &breaks, error);
-    if (status == FF_OK) status = ff_plants_find(&clip, &plants, error);
-    if (status == FF_OK) {
-        if (layout == CSV)
-            print_csv(&clip, &plants);
-        else
-            print_table(&clip, &plants);
-        if (layout == TABLE) print_breaks(&breaks);
-        ff_plants_free(&plants);
-    } else
-        ff_error_in_file(error, entry->path);
-    ff_breaks_free(&breaks);
-    ff_clip_free(&clip);
-    return status;
-}
-
-/* Every clip is tried; the ones that fail are named on stderr and make the exit status 1. */
-static int print_all(const char *const *inputs, int count, plants_layout layout, bool quiet)
-{
-    ff_error error;
-    ff_catalogue catalogue;
-    if (ff_catalogue_read(inputs, count, &catalogue, &error) != FF_OK)
-        return ff_command_fail(PROGRAM, &error);
-    int result = FF_EXIT_OK;
-    if (layout == CSV) printf("clip,foot,start_frame,end_frame,flat_start,flat_end,confidence\n");
-    ff_progress *progress = ff_progress_start("plants", (uint64_t)catalogue.count, quiet);
-    for (int i = 0; i < catalogue.count; ++i) {
-        if (print_clip(&catalogue.entries[i], layout, &error) != FF_OK)
-            result = ff_command_fail(PROGRAM, &error);
-        ff_progress_step(progress, catalogue.entries[i].path);
+    const plants_layout *layout = context;
+    (void)error;
+    if (*layout == CSV) {
+        print_csv(&seen->clip, &seen->plants);
+    } else {
+        print_table(&seen->clip, &seen->plants);
+        print_breaks(&seen->breaks);
     }
-    ff_progress_end(progress);
-    ff_catalogue_free(&catalogue);
-    return result;
+    return FF_OK;
 }
 
 int ff_plants_command(int argc, char **argv)
@@ -112,6 +79,8 @@ int ff_plants_command(int argc, char **argv)
     };
     ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
-    if (result < 0) result = print_all(operands.items, operands.count, csv ? CSV : TABLE, quiet);
-    return result;
+    if (result >= 0) return result;
+    plants_layout layout = csv ? CSV : TABLE;
+    if (csv) printf("clip,foot,start_frame,end_frame,flat_start,flat_end,confidence\n");
+    return ff_each_clip(PROGRAM, "plants", operands.items, operands.count, quiet, print_clip, &layout);
 }
