@@ -178,7 +178,7 @@ static ff_status fill(build *b, ff_error *error)
     if (status != FF_OK) return status;
     status = ff_pack_add_rig(content, &b->rig, error);
     if (status == FF_OK) status = ff_pack_add_examples(content, &set, error);
-    if (status == FF_OK) status = ff_pack_add_gait(content, &set, error);
+    if (status == FF_OK) status = ff_pack_add_gait(content, &b->rig, &set, b->tasks, error);
     if (status == FF_OK) status = ff_pack_add_clips(content, b->clips, b->good, b->settings->rate, error);
     if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
     if (status == FF_OK)

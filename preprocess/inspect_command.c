@@ -1,4 +1,5 @@
 #include "preprocess/build.h"
+#include "preprocess/inspect_examples.h"
 
 #include "runtime/core/base/maths.h"
 #include "runtime/core/pack.h"
@@ -249,8 +250,12 @@ static void print_json(const ff_pack *pack, const char *path)
 
 int ff_inspect_command(int argc, char **argv)
 {
-    bool json = false;
-    ff_option options[] = {{.name = "--json", .help = "everything as JSON", .flag = &json}, {0}};
+    bool json = false, examples = false;
+    ff_option options[] = {{.name = "--json", .help = "everything as JSON", .flag = &json},
+                           {.name = "--examples",
+                            .help = "how examples were closed to loops, and when to pass from one to another",
+                            .flag = &examples},
+                           {0}};
     ff_command command = {
         .program = PROGRAM,
         .name = "inspect",
@@ -267,7 +272,11 @@ int ff_inspect_command(int argc, char **argv)
         ff_pack *pack;
         ff_error error;
         if (ff_pack_open(operands.items[0], &pack, &error) == FF_OK) {
-            (json ? print_json : print_all)(pack, operands.items[0]);
+            if (examples) {
+                ff_inspect_examples(pack);
+            } else {
+                (json ? print_json : print_all)(pack, operands.items[0]);
+            }
             ff_pack_close(pack);
             result = FF_EXIT_OK;
         } else {

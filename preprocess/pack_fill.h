@@ -5,6 +5,7 @@
 #include "preprocess/build.h"
 #include "preprocess/build_clip.h"
 #include "preprocess/examples.h"
+#include "runtime/core/base/tasks.h"
 
 /* Joints and points of the rig. */
 ff_status ff_pack_add_rig(ff_pack_content *content, const ff_rig *rig, ff_error *error);
@@ -20,6 +21,7 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
 
 /* How they were closed, when to pass from one to another, the semi-procedural clip and the limits of sharp turns; after
  * the examples. */
-ff_status ff_pack_add_gait(ff_pack_content *content, const ff_example_set *set, ff_error *error);
+ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff_example_set *set,
+                           ff_tasks *tasks, ff_error *error);
 
 #endif

@@ -1,7 +1,10 @@
 /* What velocity planning and synthesis need beside the examples themselves. */
+#include "preprocess/correspond_set.h"
 #include "preprocess/pack_fill.h"
 
 #include "runtime/core/base/fail.h"
+
+#include <stdlib.h>
 
 static ff_status no_memory(ff_error *error)
 {
@@ -17,7 +20,44 @@ static ff_status add_loops(ff_pack_content *content, const ff_example_set *set, 
     return FF_OK;
 }
 
-ff_status ff_pack_add_gait(ff_pack_content *content, const ff_example_set *set, ff_error *error)
+static ff_pack_pair pair_record(const ff_cycle_pair *pair)
 {
-    return add_loops(content, set, error);
+    return (ff_pack_pair){.phase = {(float)pair->phase[0], (float)pair->phase[1]},
+                          .distance = (float)pair->distance,
+                          .rms = (float)pair->rms,
+                          .turn = (float)pair->alignment.turn,
+                          .shift = {(float)pair->alignment.shift.a, (float)pair->alignment.shift.b}};
+}
+
+static ff_status add_correspondence(ff_pack_content *content, const ff_set_pairs *item, ff_error *error)
+{
+    const ff_cycle_pairs *pairs = &item->pairs;
+    if (pairs->count == 0) return FF_OK;
+    ff_pack_correspondence *out = ff_array_grow(&content->correspondences, 1, sizeof *out);
+    ff_pack_pair *pair = ff_array_grow(&content->pairs, (size_t)pairs->count, sizeof *pair);
+    if (!out || !pair) return no_memory(error);
+    *out = (ff_pack_correspondence){.from = (uint32_t)item->from,
+                                    .to = item->to < 0 ? FF_CORRESPOND_GAIT : (uint32_t)item->to,
+                                    .first_pair = (uint32_t)(content->pairs.count - (size_t)pairs->count),
+                                    .pair_count = (uint32_t)pairs->count,
+                                    .flags = pairs->by_keys ? FF_CORRESPOND_KEYS : 0,
+                                    .wait = {(float)pairs->wait[0], (float)pairs->wait[1]},
+                                    .mean = (float)pairs->mean};
+    for (int i = 0; i < pairs->count; ++i)
+        pair[i] = pair_record(&pairs->pair[i]);
+    return FF_OK;
+}
+
+ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff_example_set *set,
+                           ff_tasks *tasks, ff_error *error)
+{
+    ff_correspondences found = {0};
+    ff_example *gait = ff_calloc((size_t)set->count, sizeof *gait);
+    ff_status status = gait ? add_loops(content, set, error) : no_memory(error);
+    if (status == FF_OK) status = ff_correspond_set(rig, set, gait, tasks, &found, error);
+    for (int i = 0; i < found.count && status == FF_OK; ++i)
+        status = add_correspondence(content, &found.items[i], error);
+    ff_correspondences_free(&found);
+    free(gait);
+    return status;
 }
