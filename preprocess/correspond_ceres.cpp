@@ -19,7 +19,7 @@ namespace
 
 using knot =
     std::array<double, 5>; // phase of the first cycle, phase of the second, turn, shift left, shift forward
-constexpr double stay = 0.02; // m per cycle of phase: keeps pairs from sliding along a valley without slope
+constexpr double stay = 0.005; // m per cycle of phase: keeps pairs from sliding along a valley without slope
 constexpr double even =
     0.02; // m per cycle of phase: keeps the warp from one pair to the next near one to one
 

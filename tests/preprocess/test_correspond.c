@@ -74,12 +74,12 @@ static ff_vec3 made_point(int point, double phase)
 }
 
 /* Where in its cycle the warped body is. */
-static double planted_warp(double phase)
+static double planted_warp(double phase, double bend)
 {
-    return phase + 0.3 + 0.05 * sin(FF_TAU * phase);
+    return phase + 0.3 + bend * sin(FF_TAU * phase);
 }
 
-static ff_point_cycle made_cycle(bool warped, const ff_alignment *moved)
+static ff_point_cycle made_cycle(bool warped, double bend, const ff_alignment *moved)
 {
     ff_point_cycle cycle = {FRAMES, POINTS, 1.1, {0.0, 0.0}, 0.0, NULL, made_weights};
     cycle.points = malloc(FRAMES * POINTS * sizeof *cycle.points);
@@ -88,7 +88,7 @@ static ff_point_cycle made_cycle(bool warped, const ff_alignment *moved)
         for (int p = 0; p < POINTS; ++p) {
             double phase = k / (double)FRAMES;
             cycle.points[k * POINTS + p] =
-                ff_aligned(moved, made_point(p, warped ? planted_warp(phase) : phase));
+                ff_aligned(moved, made_point(p, warped ? planted_warp(phase, bend) : phase));
         }
     return cycle;
 }
@@ -117,11 +117,10 @@ static void check_order(const ff_cycle_pairs *pairs)
     FF_ASSERT_NEAR(around[1], 1.0, 1e-9);
 }
 
-static void a_planted_time_warp_is_found_again(void **state)
+static void find_warp(double bend, double tolerance)
 {
-    (void)state;
     ff_alignment still = {0.0, {0.0, 0.0}}, moved = {0.7, {2.0, -1.0}};
-    ff_point_cycle first = made_cycle(false, &still), second = made_cycle(true, &moved);
+    ff_point_cycle first = made_cycle(false, 0.0, &still), second = made_cycle(true, bend, &moved);
     ff_map_windows windows[2];
     ff_error error;
     FF_ASSERT_OK(ff_map_windows_make(&first, &windows[0], &error), error);
@@ -135,9 +134,9 @@ static void a_planted_time_warp_is_found_again(void **state)
     check_order(&pairs);
     for (int i = 0; i < pairs.count; ++i) {
         const ff_cycle_pair *pair = &pairs.pair[i];
-        FF_ASSERT_BELOW(off_by(pair->phase[0], planted_warp(pair->phase[1])), 0.004);
+        FF_ASSERT_BELOW(off_by(pair->phase[0], planted_warp(pair->phase[1], bend)), tolerance);
         FF_ASSERT_NEAR(pair->alignment.turn, -0.7, 0.02);
-        FF_ASSERT_BELOW(pair->rms, 0.01);
+        FF_ASSERT_BELOW(pair->rms, 0.02);
     }
     for (int i = 0; i < 2; ++i)
         assert_true(pairs.wait[i] > 0.05 && pairs.wait[i] < 0.4);
@@ -148,11 +147,20 @@ static void a_planted_time_warp_is_found_again(void **state)
     ff_point_cycle_free(&second);
 }
 
+/* A shift in time comes back exactly, though it is no whole number of the map's cells. In a bent warp one window runs
+ * faster than the other, which draws the best moment aside a little: half a cell. */
+static void a_planted_time_warp_is_found_again(void **state)
+{
+    (void)state;
+    find_warp(0.0, 2e-4);
+    find_warp(0.02, 0.5 / FF_MAP_SIDE);
+}
+
 static void the_map_is_the_distance_of_the_windows(void **state)
 {
     (void)state;
     ff_alignment still = {0.0, {0.0, 0.0}}, moved = {-0.4, {0.5, 0.0}};
-    ff_point_cycle first = made_cycle(false, &still), second = made_cycle(true, &moved);
+    ff_point_cycle first = made_cycle(false, 0.0, &still), second = made_cycle(true, 0.02, &moved);
     first.velocity = ff_v2(1.2, 0.1), first.turn = 0.5;
     second.velocity = ff_v2(0.9, 0.0), second.turn = -0.2;
     ff_map_windows windows[2];
@@ -181,7 +189,7 @@ static void window_slopes_are_the_change_of_the_points(void **state)
 {
     (void)state;
     ff_alignment still = {0.0, {0.0, 0.0}};
-    ff_point_cycle cycle = made_cycle(true, &still);
+    ff_point_cycle cycle = made_cycle(true, 0.02, &still);
     cycle.velocity = ff_v2(1.2, 0.1), cycle.turn = 0.8;
     const double e = 1e-6;
     for (double phase = -0.3; phase < 1.5; phase += 0.0937) {
