@@ -101,6 +101,14 @@ $(B)/libroom_tool.a: $(call obj,$(tool_src)) $(B)/sources.txt
 	$(archive)
 $(B)/libroom_mocap.a: $(call obj,$(mocap_src)) $(B)/sources.txt
 	$(archive)
+# Results that footfall-pack keeps from build to build are those of one code only (preprocess/code_version.h).
+code_src := $(sort $(core_src) $(mocap_src) $(preprocess_src) \
+    $(wildcard runtime/*.h runtime/core/*.h runtime/core/*/*.h mocap/*.h mocap/*/*.h preprocess/*.h))
+code_version := $(shell (echo '$(CC) $(CFLAGS_ALL) $(CXX) $(CXXFLAGS_ALL)'; cat $(code_src)) | sha256sum | cut -c1-16)
+$(B)/code-version.txt: FORCE
+	$(call remember,$(code_version))
+$(call obj,preprocess/code_version.c): CFLAGS_HERE := -DFF_CODE_VERSION='"$(code_version)"'
+$(call obj,preprocess/code_version.c): $(B)/code-version.txt
 $(B)/libroom_preprocess.a: $(call obj,$(preprocess_src)) $(B)/sources.txt
 	$(archive)
 $(B)/libroom_export.a: $(call obj,$(export_src)) $(B)/sources.txt

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "mocap/load.h"
 
+#include "mocap/gltf.h"
 #include "mocap/read.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
@@ -11,6 +12,8 @@
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
+
+#include <xxhash.h>
 
 ff_load_options ff_load_options_default(void)
 {
@@ -163,5 +166,59 @@ ff_status ff_clip_load(const char *path, const ff_load_options *options, ff_clip
     if (status == FF_OK) return FF_OK;
     ff_error_in_file(error, path);
     ff_clip_free(out);
+    return status;
+}
+
+/* --------------------------------------------------------------------------------------------------------- hash */
+
+static ff_status hash_file(const char *path, uint64_t seed, uint64_t *hash, ff_error *error)
+{
+    ff_file file;
+    ff_status status = ff_file_map(path, &file, error);
+    if (status != FF_OK) return status;
+    *hash = XXH64(file.data, file.size, seed);
+    ff_file_unmap(&file);
+    return FF_OK;
+}
+
+/* The files beside a .gltf. One that cannot be opened is the reader's to complain about. */
+static ff_status hash_buffers(const char *path, uint64_t *hash, ff_error *error)
+{
+    ff_file file;
+    ff_gltf gltf;
+    ff_status status = ff_file_map(path, &file, error);
+    if (status != FF_OK) return status;
+    if (ff_gltf_open(file.data, file.size, path, &gltf, NULL) == FF_OK) {
+        for (int i = 0; i < gltf.buffer_count; ++i)
+            *hash = XXH64(gltf.buffers[i].data, gltf.buffers[i].size, *hash);
+        ff_gltf_close(&gltf);
+    }
+    ff_file_unmap(&file);
+    return FF_OK;
+}
+
+static ff_status hash_all(const char *file, const ff_load_options *options, uint64_t *own, uint64_t *all,
+                          ff_error *error)
+{
+    char *found = NULL;
+    ff_status status = hash_file(file, 0, own, error);
+    *all = *own;
+    if (status == FF_OK && format_of(file) == AMC) {
+        if (!options->skeleton) status = find_skeleton(file, &found, error);
+        if (status == FF_OK) status = hash_file(found ? found : options->skeleton, *own, all, error);
+        free(found);
+    } else if (status == FF_OK && strcasecmp(ending_of(file), ".gltf") == 0) {
+        status = hash_buffers(file, all, error);
+    }
+    return status;
+}
+
+ff_status ff_clip_hash(const char *path, const ff_load_options *options, uint64_t *own, uint64_t *all,
+                       ff_error *error)
+{
+    char *file = strndup(path, ff_clip_file_length(path));
+    if (!file) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the clip's name");
+    ff_status status = hash_all(file, options, own, all, error);
+    free(file);
     return status;
 }

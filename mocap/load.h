@@ -30,6 +30,11 @@ ff_status ff_clip_load(const char *path, const ff_load_options *options, ff_clip
 /* How much of a path is the file's: all of it, but for the #ANIMATION after .gltf or .glb. */
 size_t ff_clip_file_length(const char *path);
 
+/* XXH64 of the file's bytes (own), and of everything that loading it reads (all: also the skeleton of an AMC, the buffers of a glTF).
+ * Which animation of a glTF file path means does not count. */
+ff_status ff_clip_hash(const char *path, const ff_load_options *options, uint64_t *own, uint64_t *all,
+                       ff_error *error);
+
 /* Metres per file unit of a preset ("cmu", "m", "cm", "inch"), or 0 for an unknown name. */
 double ff_unit_preset(const char *name);
 

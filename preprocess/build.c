@@ -1,3 +1,4 @@
+#define _POSIX_C_SOURCE 200809L
 #include "preprocess/build.h"
 
 #include "mocap/generator/generator.h"
@@ -8,13 +9,16 @@
 #include "runtime/core/base/tasks.h"
 #include "runtime/tool/progress.h"
 
+#include <limits.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 ff_build_settings ff_build_settings_default(void)
 {
-    return (ff_build_settings){.threads = ff_processor_count(), .rate = FF_PACK_RATE, .clean = true};
+    return (ff_build_settings){.pack = ff_settings_default(), .threads = ff_processor_count()};
 }
 
 void ff_build_result_free(ff_build_result *result)
@@ -24,6 +28,12 @@ void ff_build_result_free(ff_build_result *result)
     memset(result, 0, sizeof *result);
 }
 
+/* The order in which a stage takes the clips: the most work first, so that no thread ends up alone with it. */
+typedef struct ordered {
+    double work;
+    uint32_t index;
+} ordered;
+
 typedef struct build {
     const ff_catalogue *catalogue; /* NULL = built-in clips */
     const ff_build_settings *settings;
@@ -31,7 +41,11 @@ typedef struct build {
     ff_progress *progress;
     ff_build_clip *clips; /* the good ones first, [good, count) were left out */
     int count, good;
+    ordered *order;
+    atomic_int first_bad; /* with strict: clips after it need not be looked at any more */
+    ff_cache cache;
     ff_rig rig;
+    ff_build_shared shared;
     ff_build_result *result;
 } build;
 
@@ -67,7 +81,9 @@ static ff_status name_sources(build *b, ff_error *error)
     b->count = b->catalogue ? b->catalogue->count : ff_generator_count();
     if (b->count == 0) return ff_fail(error, FF_ERR_NO_DATA, "no clip to build from (.amc or .bvh)");
     b->clips = ff_calloc((size_t)b->count, sizeof *b->clips);
-    if (!b->clips) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->count);
+    b->order = ff_calloc((size_t)b->count, sizeof *b->order);
+    if (!b->clips || !b->order)
+        return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->count);
     size_t skip = b->catalogue ? shared_folder(b->catalogue) : 0;
     for (int i = 0; i < b->count; ++i) {
         char text[256];
@@ -75,29 +91,45 @@ static ff_status name_sources(build *b, ff_error *error)
         b->clips[i].source = copy_text(b->catalogue ? b->catalogue->entries[i].path + skip : text);
         if (!b->clips[i].source)
             return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->count);
+        ff_build_clip_begin(&b->clips[i], b->catalogue ? &b->catalogue->entries[i] : NULL, i);
     }
     return FF_OK;
 }
 
 /* ------------------------------------------------------------------------------------------------------ stages */
 
-static void load_one(void *context, uint32_t index)
+/* A rough measure for the order and the time left: bytes before anything is known of a clip, then frames. */
+static double work_of(const ff_build_clip *clip)
 {
-    build *b = context;
-    ff_build_clip *clip = &b->clips[index];
-    if (b->catalogue) {
-        ff_build_clip_load(clip, &b->catalogue->entries[index]);
-    } else {
-        ff_build_clip_generate(clip, (int)index);
-    }
-    ff_progress_step(b->progress, clip->source);
+    struct stat info;
+    if (clip->frames > 0) return clip->frames * clip->clip.frame_time + 0.01;
+    return clip->entry && stat(clip->entry->path, &info) == 0 ? 1e-6 * (double)info.st_size + 0.01 : 1.0;
 }
 
-static void cut_one(void *context, uint32_t index)
+static int by_work(const void *left, const void *right)
 {
-    build *b = context;
-    ff_build_clip_cut(&b->clips[index], &b->rig, b->settings->clean);
-    ff_progress_step(b->progress, b->clips[index].source);
+    const ordered *a = left, *b = right;
+    if (a->work != b->work) return a->work < b->work ? 1 : -1;
+    return (a->index > b->index) - (a->index < b->index);
+}
+
+typedef struct stage {
+    build *b;
+    void (*run)(ff_build_clip *, const ff_build_shared *);
+} stage;
+
+static void run_one(void *context, uint32_t turn)
+{
+    const stage *s = context;
+    build *b = s->b;
+    int index = (int)b->order[turn].index;
+    ff_build_clip *clip = &b->clips[index];
+    if (b->settings->strict && index > atomic_load(&b->first_bad)) return;
+    s->run(clip, &b->shared);
+    int bad = atomic_load(&b->first_bad);
+    while (clip->status != FF_OK && index < bad && !atomic_compare_exchange_weak(&b->first_bad, &bad, index))
+        continue;
+    ff_progress_step_by(b->progress, clip->source, b->order[turn].work);
 }
 
 /* Move clips that failed behind the good ones, both in order. With strict the first one ends the build. */
@@ -126,10 +158,19 @@ static ff_status set_bad_aside(build *b, ff_error *error)
     return b->clips[0].status;
 }
 
-static ff_status run_stage(build *b, const char *what, void (*stage)(void *, uint32_t), ff_error *error)
+static ff_status run_stage(build *b, const char *what, void (*run)(ff_build_clip *, const ff_build_shared *),
+                           ff_error *error)
 {
+    double work = 0.0;
+    for (int i = 0; i < b->good; ++i) {
+        b->order[i] = (ordered){work_of(&b->clips[i]), (uint32_t)i};
+        work += b->order[i].work;
+    }
+    qsort(b->order, (size_t)b->good, sizeof *b->order, by_work);
+    atomic_store(&b->first_bad, INT_MAX);
     b->progress = ff_progress_start(what, (uint64_t)b->good, b->settings->quiet);
-    ff_tasks_for(b->tasks, (uint32_t)b->good, 1, stage, b);
+    ff_progress_weigh(b->progress, work);
+    ff_tasks_for(b->tasks, (uint32_t)b->good, 1, run_one, &(stage){b, run});
     ff_progress_end(b->progress);
     b->progress = NULL;
     return set_bad_aside(b, error);
@@ -179,7 +220,8 @@ static ff_status fill(build *b, ff_error *error)
     status = ff_pack_add_rig(content, &b->rig, error);
     if (status == FF_OK) status = ff_pack_add_examples(content, &set, error);
     if (status == FF_OK) status = ff_pack_add_gait(content, &b->rig, &set, b->tasks, error);
-    if (status == FF_OK) status = ff_pack_add_clips(content, b->clips, b->good, b->settings->rate, error);
+    if (status == FF_OK)
+        status = ff_pack_add_clips(content, b->clips, b->good, b->settings->pack.poses.rate, error);
     if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
     if (status == FF_OK)
         status = ff_pack_add_meta(content, b->settings, b->clips, b->good, b->clips + b->good,
@@ -196,14 +238,34 @@ static void keep_skipped(build *b)
         b->result->skipped[b->result->skipped_count++] = b->clips[b->good + i].error;
 }
 
+static int by_key(const void *left, const void *right)
+{
+    const uint64_t *a = left, *b = right;
+    return (*a > *b) - (*a < *b);
+}
+
+static void prune(const build *b)
+{
+    size_t count = 2 * (size_t)b->count;
+    uint64_t *keys = ff_calloc(count, sizeof *keys);
+    if (!keys) return;
+    for (int i = 0; i < b->count; ++i) {
+        keys[2 * i] = b->clips[i].find_key;
+        keys[2 * i + 1] = b->clips[i].cut_key;
+    }
+    qsort(keys, count, sizeof *keys, by_key);
+    ff_cache_prune(&b->cache, keys, count);
+    free(keys);
+}
+
 static ff_status run(build *b, ff_error *error)
 {
     ff_status status = name_sources(b, error);
     b->good = b->count;
-    if (status == FF_OK) status = run_stage(b, "reading", load_one, error);
+    if (status == FF_OK) status = run_stage(b, "reading", ff_build_clip_find, error);
     if (status == FF_OK) status = make_rig(b, error);
     if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
-    if (status == FF_OK) status = run_stage(b, "cutting", cut_one, error);
+    if (status == FF_OK) status = run_stage(b, "cutting", ff_build_clip_cut, error);
     if (status == FF_OK) status = split_walks(b, error);
     if (status == FF_OK) status = fill(b, error);
     return status;
@@ -214,12 +276,20 @@ ff_status ff_build(const ff_catalogue *catalogue, const ff_build_settings *setti
 {
     memset(out, 0, sizeof *out);
     build b = {.catalogue = catalogue, .settings = settings, .result = out};
+    ff_cache_open(&b.cache, settings->cache);
+    b.shared = (ff_build_shared){&settings->pack, &b.cache, &b.rig};
     ff_status status = ff_tasks_create(settings->threads, &b.tasks, error);
     if (status == FF_OK) status = run(&b, error);
+    if (status == FF_OK && settings->prune) prune(&b);
+    out->reused = atomic_load(&b.cache.found);
+    out->computed = atomic_load(&b.cache.missed);
+    out->unkept = atomic_load(&b.cache.unwritten);
+    ff_cache_close(&b.cache);
     if (b.clips) keep_skipped(&b);
     for (int i = 0; b.clips && i < b.count; ++i)
         ff_build_clip_free(&b.clips[i]);
     free(b.clips);
+    free(b.order);
     ff_tasks_destroy(b.tasks);
     return status;
 }

@@ -4,19 +4,26 @@
 
 #include "mocap/catalogue.h"
 #include "preprocess/pack_write.h"
+#include "preprocess/settings.h"
 
 typedef struct ff_build_settings {
+    ff_settings pack; /* all that the pack depends on beside the clips */
     bool strict;      /* a bad clip stops the build instead of being left out */
     bool quiet;       /* no progress on stderr */
     uint32_t threads; /* the result does not depend on it */
-    bool clean;       /* planted feet are made to stand still (clean.h); on by default */
-    double rate;      /* Hz, of the clips' pose streams */
+    const char
+        *cache; /* folder in which results of clips are kept from build to build; NULL = none. The result does
+                          not depend on it */
+    bool prune; /* remove from it what this build had no use for */
 } ff_build_settings;
 
 typedef struct ff_build_result {
     ff_pack_content content;
     ff_error *skipped; /* why clips were left out, in the order of the clips */
     int skipped_count;
+    int reused;   /* results of stages that came from the cache ... */
+    int computed; /* ... and that did not */
+    int unkept;   /* that could not be written to it */
 } ff_build_result;
 
 ff_build_settings ff_build_settings_default(void);

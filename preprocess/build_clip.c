@@ -2,8 +2,9 @@
 #include "preprocess/build_clip.h"
 
 #include "mocap/generator/generator.h"
+#include "preprocess/carry.h"
+#include "preprocess/code_version.h"
 #include "runtime/core/base/fail.h"
-#include "runtime/core/base/file.h"
 #include "runtime/core/base/memory.h"
 
 #include <stdlib.h>
@@ -28,12 +29,9 @@ static ff_status trim(ff_clip *clip, int first, int last, ff_error *error)
 {
     if (last < 0) last = clip->frame_count - 1;
     if (first == 0 && last == clip->frame_count - 1) return FF_OK;
-    if (first > last || last >= clip->frame_count) {
-        ff_fail(error, FF_ERR_RANGE, "trim keeps frames %d to %d, but the file has frames 0 to %d", first,
-                last, clip->frame_count - 1);
-        ff_error_in_file(error, clip->source);
-        return FF_ERR_RANGE;
-    }
+    if (first > last || last >= clip->frame_count)
+        return ff_fail(error, FF_ERR_RANGE, "trim keeps frames %d to %d, but the file has frames 0 to %d",
+                       first, last, clip->frame_count - 1);
     size_t joints = (size_t)clip->joint_count, tracks = (size_t)clip->track_count,
            n = (size_t)last - (size_t)first + 1;
     memmove(clip->rotations, clip->rotations + (size_t)first * joints, n * joints * sizeof *clip->rotations);
@@ -45,40 +43,20 @@ static ff_status trim(ff_clip *clip, int first, int last, ff_error *error)
     return FF_OK;
 }
 
-static ff_status hash_file(const char *path, uint64_t *hash, ff_error *error)
+void ff_build_clip_begin(ff_build_clip *clip, const ff_catalogue_entry *entry, int index)
 {
-    ff_file file;
-    char *name = strndup(path, ff_clip_file_length(path));
-    if (!name) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the name of %s", path);
-    ff_status status = ff_file_map(name, &file, error);
-    free(name);
-    if (status != FF_OK) return status;
-    *hash = XXH64(file.data, file.size, 0);
-    ff_file_unmap(&file);
-    return FF_OK;
-}
-
-void ff_build_clip_load(ff_build_clip *clip, const ff_catalogue_entry *entry)
-{
-    ff_status status = ff_clip_load(entry->path, &entry->options, &clip->clip, &clip->error);
-    if (status == FF_OK) status = hash_file(entry->path, &clip->hash, &clip->error);
-    if (status == FF_OK) status = trim(&clip->clip, entry->trim_first, entry->trim_last, &clip->error);
-    clip->licence = entry->licence;
-    clip->citation = entry->citation;
-    clip->tags = entry->tags;
-    clip->mode = entry->mode;
-    clip->mirror = entry->mirror;
-    clip->first_frame = entry->trim_first;
-    if (status == FF_OK) status = ff_breaks_repair(&clip->clip, &clip->repaired, &clip->error);
-    if (status == FF_OK) status = ff_plants_find(&clip->clip, &clip->plants, &clip->error);
-    clip->status = status;
-}
-
-void ff_build_clip_generate(ff_build_clip *clip, int index)
-{
-    ff_generated made;
+    clip->entry = entry;
+    if (entry) {
+        clip->licence = entry->licence;
+        clip->citation = entry->citation;
+        clip->tags = entry->tags;
+        clip->mode = entry->mode;
+        clip->mirror = entry->mirror;
+        clip->first_frame = entry->trim_first;
+        return;
+    }
     ff_generator_info info = ff_generator_describe(index);
-    ff_status status = ff_generator_make(index, NULL, &made, &clip->error);
+    clip->built_in = index;
     clip->licence = "MIT";
     clip->citation =
         "The data used in this project was obtained from mocap.cs.cmu.edu. The database was created with "
@@ -86,15 +64,133 @@ void ff_build_clip_generate(ff_build_clip *clip, int index)
     clip->tags = info.tags;
     clip->mode = info.mode;
     clip->mirror = true;
-    if (status == FF_OK) {
-        clip->clip = made.clip;
-        memset(&made.clip, 0, sizeof made.clip);
-        ff_generated_free(&made);
+}
+
+static ff_status generate(const ff_build_clip *clip, ff_clip *out, ff_error *error)
+{
+    ff_generated made;
+    ff_status status = ff_generator_make(clip->built_in, NULL, &made, error);
+    if (status != FF_OK) return status;
+    *out = made.clip;
+    memset(&made.clip, 0, sizeof made.clip);
+    ff_generated_free(&made);
+    return FF_OK;
+}
+
+/* All frames of the clip that the catalogue wants, single broken ones put back. */
+static ff_status read_frames(const ff_build_clip *clip, ff_clip *out, ff_breaks *repaired, ff_error *error)
+{
+    const ff_catalogue_entry *entry = clip->entry;
+    memset(repaired, 0, sizeof *repaired);
+    if (!entry) return generate(clip, out, error);
+    ff_status status = ff_clip_load(entry->path, &entry->options, out, error);
+    if (status == FF_OK) status = trim(out, entry->trim_first, entry->trim_last, error);
+    if (status == FF_OK) status = ff_breaks_repair(out, repaired, error);
+    if (status != FF_OK) ff_clip_free(out);
+    return status;
+}
+
+/* Give the memory of all frames back but for the last: the rig is made from the skeletons, and skeletons whose identity
+ * pose is not a standing person are measured in a pose. */
+static void keep_last_frame(ff_clip *clip)
+{
+    size_t joints = (size_t)clip->joint_count, tracks = (size_t)clip->track_count,
+           last = (size_t)clip->frame_count - 1;
+    memmove(clip->rotations, clip->rotations + last * joints, joints * sizeof *clip->rotations);
+    ff_quat *rotations = realloc(clip->rotations, joints * sizeof *rotations);
+    if (rotations) clip->rotations = rotations;
+    if (tracks) {
+        memmove(clip->positions, clip->positions + last * tracks, tracks * sizeof *clip->positions);
+        ff_vec3 *positions = realloc(clip->positions, tracks * sizeof *positions);
+        if (positions) clip->positions = positions;
+    }
+    clip->frame_count = 1;
+}
+
+/* --------------------------------------------------------------------------------------------------------- keys */
+
+static uint64_t hash_text(const char *text, uint64_t seed)
+{
+    return XXH64(text, strlen(text) + 1, seed);
+}
+
+/* Everything about a catalogue entry that what is read from its file depends on. */
+static uint64_t hash_entry(const ff_catalogue_entry *entry, uint64_t seed)
+{
+    const ff_load_options *o = &entry->options;
+    const char *slash = strrchr(entry->path, '/');
+    const double numbers[] = {o->in_place, o->unit_m,         o->fps,          o->up,
+                              o->strict,   entry->trim_first, entry->trim_last};
+    seed = hash_text(slash ? slash + 1 : entry->path,
+                     seed); /* clips are named after their files and animations */
+    seed = XXH64(numbers, sizeof numbers, seed);
+    for (int i = 0; i < o->override_count; ++i) {
+        int32_t role = o->overrides[i].role;
+        seed = XXH64(&role, sizeof role, hash_text(o->overrides[i].joint, seed));
+    }
+    return seed;
+}
+
+static ff_status make_find_key(ff_build_clip *clip, const ff_build_shared *shared)
+{
+    uint64_t all = 0, key = hash_text(ff_code_version(), 0);
+    if (clip->entry) {
+        ff_status status =
+            ff_clip_hash(clip->entry->path, &clip->entry->options, &clip->hash, &all, &clip->error);
+        if (status != FF_OK) return status;
+        key = hash_entry(clip->entry, key);
+    } else {
+        key = hash_text(clip->source, key);
+    }
+    key = XXH64(&all, sizeof all, key);
+    clip->find_key = ff_settings_hash(shared->settings, FF_STAGE_FIND, key);
+    return FF_OK;
+}
+
+static void make_cut_key(ff_build_clip *clip, const ff_build_shared *shared)
+{
+    uint64_t key = hash_text(clip->mode, hash_text(clip->tags, clip->find_key + 1));
+    key = XXH64(shared->rig, sizeof *shared->rig, key); /* doubles only: no padding */
+    clip->cut_key = ff_settings_hash(shared->settings, FF_STAGE_CUT, key);
+}
+
+/* ----------------------------------------------------------------------------------------------------- stage 1 */
+
+static ff_status find(ff_build_clip *clip)
+{
+    ff_status status = read_frames(clip, &clip->clip, &clip->repaired, &clip->error);
+    if (status != FF_OK) return status;
+    if (!clip->entry) {
         size_t poses = (size_t)clip->clip.frame_count * (size_t)clip->clip.joint_count;
         clip->hash = XXH64(clip->clip.rotations, poses * sizeof *clip->clip.rotations, 0);
-        status = ff_plants_find(&clip->clip, &clip->plants, &clip->error);
     }
-    clip->status = status;
+    clip->frames = clip->clip.frame_count;
+    status = ff_plants_find(&clip->clip, &clip->plants, &clip->error);
+    keep_last_frame(&clip->clip);
+    return status;
+}
+
+static void name_error(ff_build_clip *clip)
+{
+    if (clip->status != FF_OK) ff_error_in_file(&clip->error, clip->entry ? clip->entry->path : clip->source);
+}
+
+void ff_build_clip_find(ff_build_clip *clip, const ff_build_shared *shared)
+{
+    void *data;
+    size_t size;
+    clip->status = make_find_key(clip, shared);
+    if (clip->status == FF_OK && ff_cache_load(shared->cache, "find", clip->find_key, &data, &size)) {
+        bool whole = ff_carry_found_in(clip, data, size);
+        free(data);
+        if (whole) return;
+    }
+    if (clip->status == FF_OK) clip->status = find(clip);
+    ff_array entry = {0};
+    if (clip->status == FF_OK && ff_carry_found_out(clip, &entry))
+        ff_cache_store(shared->cache, "find", clip->find_key, entry.data, entry.count);
+    ff_array_free(&entry);
+    name_error(clip);
 }
 
 /* FF_MODE_* of a whole clip, or -1: found from the motion. */
@@ -122,18 +218,35 @@ static bool has_tag(const char *tags, const char *word)
     return false;
 }
 
-void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig, bool clean)
+/* ----------------------------------------------------------------------------------------------------- stage 2 */
+
+ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *error)
+{
+    uint64_t own = clip->hash, all;
+    ff_status status = FF_OK;
+    if (clip->entry) status = ff_clip_hash(clip->entry->path, &clip->entry->options, &own, &all, error);
+    if (status == FF_OK && own != clip->hash)
+        status = ff_fail(error, FF_ERR_IO, "the file changed while it was worked on");
+    ff_breaks repaired; /* the same as the first time */
+    if (status == FF_OK) status = read_frames(clip, out, &repaired, error);
+    if (status == FF_OK) ff_breaks_free(&repaired);
+    return status;
+}
+
+static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
 {
     const ff_plants *plants = &clip->plants;
     int mode = mode_tag(clip->mode), rest = clip->clip.rest_frames;
     bool walks = mode != FF_MODE_JUMP && mode != FF_MODE_CLIMB && mode != FF_MODE_CROUCH &&
                  !has_tag(clip->tags, FF_TAG_NO_EXAMPLE);
-    ff_status status = ff_motion_from_clip(rig, &clip->clip, plants, &clip->motion, &clip->error);
-    if (status == FF_OK && clean) {
+    const ff_rig *rig = shared->rig;
+    ff_clip whole;
+    ff_status status = ff_build_clip_read(clip, &whole, &clip->error);
+    if (status != FF_OK) return status;
+    status = ff_motion_from_clip(rig, &whole, plants, &clip->motion, &clip->error);
+    ff_clip_free(&whole);
+    if (status == FF_OK && shared->settings->motion.clean)
         status = ff_motion_clean(rig, &clip->motion, plants, &clip->cleaned, &clip->error);
-        if (status != FF_OK)
-            ff_error_in_file(&clip->error, clip->clip.source ? clip->clip.source : clip->source);
-    }
     if (status == FF_OK)
         status = ff_actions_cut(rig, &clip->motion, plants, mode, &clip->actions, &clip->error);
     if (status == FF_OK && walks)
@@ -142,7 +255,33 @@ void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig, bool clean)
     if (status == FF_OK && walks)
         status = ff_cycles_cut_idle(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
                                     &clip->error);
-    clip->status = status;
+    return status;
+}
+
+/* That a clip cannot be used may have cost as much to find out as its actions: it is kept too. But not a lack of
+ * memory or a file that could not be read, which another time may be better. */
+static bool may_be_kept(ff_status status)
+{
+    return status != FF_ERR_NO_MEMORY && status != FF_ERR_IO;
+}
+
+void ff_build_clip_cut(ff_build_clip *clip, const ff_build_shared *shared)
+{
+    void *data;
+    size_t size;
+    make_cut_key(clip, shared);
+    if (ff_cache_load(shared->cache, "cut", clip->cut_key, &data, &size)) {
+        bool whole = ff_carry_cut_in(clip, data, size);
+        free(data);
+        name_error(clip);
+        if (whole) return;
+    }
+    clip->status = cut(clip, shared);
+    ff_array entry = {0};
+    if (may_be_kept(clip->status) && ff_carry_cut_out(clip, &entry))
+        ff_cache_store(shared->cache, "cut", clip->cut_key, entry.data, entry.count);
+    ff_array_free(&entry);
+    name_error(clip);
 }
 
 /* -------------------------------------------------------------------------------------------------- subjects */

@@ -3,8 +3,10 @@
 #define FF_BUILD_CLIP_H
 
 #include "mocap/catalogue.h"
+#include "preprocess/cache.h"
 #include "preprocess/clean.h"
 #include "preprocess/cycles.h"
+#include "preprocess/settings.h"
 #include "preprocess/steps.h"
 
 /* Catalogue tag of clips that are no model of walking (a ball is dribbled, someone sneaks): their steps become actions,
@@ -12,30 +14,52 @@
 #define FF_TAG_NO_EXAMPLE "no-example"
 
 typedef struct ff_build_clip {
-    char *source; /* relative to the folder that holds all clips: never an absolute path */
+    char *source;                    /* relative to the folder that holds all clips: never an absolute path */
+    const ff_catalogue_entry *entry; /* NULL = a built-in clip */
+    int built_in;                    /* index of the generator */
     const char *licence, *citation, *tags, *mode;
     bool mirror;
     int first_frame; /* of the file: frames before it were trimmed */
-    uint64_t hash;   /* XXH64 of the file's bytes; of the poses of a built-in clip */
     int subject;     /* clips of one skeleton have the same number */
     bool first_of_subject;
+    uint64_t find_key, cut_key; /* of the cache: what the results of the stages depend on */
 
     ff_status status; /* of the stages so far */
     ff_error error;
-    ff_clip clip;
+
+    /* Stage 1 */
+    uint64_t hash;      /* XXH64 of the file's bytes; of the poses of a built-in clip */
+    int frames;         /* after trimming */
+    ff_clip clip;       /* only the last frame: all frames of all clips are never in memory together */
     ff_breaks repaired; /* what was broken in the file; what could not be put back is in plants.breaks too */
     ff_plants plants;
+    /* Stage 2 */
     ff_motion motion;
     ff_clean_report cleaned; /* all 0 when it was not asked for */
     ff_actions actions;
     ff_cycles cycles;
 } ff_build_clip;
 
-/* Stage 1: read the file (or generate built-in clip index), trim, find plants. */
-void ff_build_clip_load(ff_build_clip *clip, const ff_catalogue_entry *entry);
-void ff_build_clip_generate(ff_build_clip *clip, int index);
-/* Stage 2: onto the rig, feet cleaned up if clean is set, actions and gait cycles. */
-void ff_build_clip_cut(ff_build_clip *clip, const ff_rig *rig, bool clean);
+/* What the stages of every clip share. */
+typedef struct ff_build_shared {
+    const ff_settings *settings;
+    ff_cache *cache;
+    const ff_rig *rig; /* stage 2 */
+} ff_build_shared;
+
+/* Take what the catalogue says, or the generator of built-in clip index. */
+void ff_build_clip_begin(ff_build_clip *clip, const ff_catalogue_entry *entry, int index);
+/* Stage 1: read the file (or generate the built-in clip), trim, find plants. */
+void ff_build_clip_find(ff_build_clip *clip, const ff_build_shared *shared);
+/* All frames of the clip as stage 1 saw them (trimmed, single broken ones put back). The caller frees *out. */
+ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *error);
+/* Stage 2: onto the rig, feet cleaned up if the settings say so, actions and gait cycles. */
+void ff_build_clip_cut(ff_build_clip *clip, const ff_build_shared *shared);
+
+static inline double ff_build_clip_seconds(const ff_build_clip *clip)
+{
+    return (clip->frames - 1) * clip->clip.frame_time;
+}
 
 void ff_build_clip_free(ff_build_clip *clip);
 

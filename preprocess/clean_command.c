@@ -19,6 +19,8 @@ typedef enum clean_layout { TABLE, CSV } clean_layout;
 typedef struct clean_run {
     const ff_catalogue *catalogue;
     ff_build_clip *clips;
+    ff_settings settings;
+    ff_cache cache; /* of nothing */
     ff_rig rig;
     ff_progress *progress;
 } clean_run;
@@ -26,7 +28,8 @@ typedef struct clean_run {
 static void load_one(void *context, uint32_t index)
 {
     clean_run *run = context;
-    ff_build_clip_load(&run->clips[index], &run->catalogue->entries[index]);
+    ff_build_clip_begin(&run->clips[index], &run->catalogue->entries[index], 0);
+    ff_build_clip_find(&run->clips[index], &(ff_build_shared){&run->settings, &run->cache, NULL});
     ff_progress_step(run->progress, run->catalogue->entries[index].path);
 }
 
@@ -34,8 +37,11 @@ static void clean_one(void *context, uint32_t index)
 {
     clean_run *run = context;
     ff_build_clip *c = &run->clips[index];
+    ff_clip whole = {0};
+    if (c->status == FF_OK) c->status = ff_build_clip_read(c, &whole, &c->error);
     if (c->status == FF_OK)
-        c->status = ff_motion_from_clip(&run->rig, &c->clip, &c->plants, &c->motion, &c->error);
+        c->status = ff_motion_from_clip(&run->rig, &whole, &c->plants, &c->motion, &c->error);
+    ff_clip_free(&whole);
     if (c->status == FF_OK)
         c->status = ff_motion_clean(&run->rig, &c->motion, &c->plants, &c->cleaned, &c->error);
     ff_progress_step(run->progress, run->catalogue->entries[index].path);
@@ -59,7 +65,7 @@ static ff_status find_rig(clean_run *run, ff_error *error)
 static void print_csv(const ff_build_clip *c)
 {
     const ff_clean_report *r = &c->cleaned;
-    printf("%s,%.3f,%d", c->clip.name, ff_clip_seconds(&c->clip), r->was_clean ? 1 : 0);
+    printf("%s,%.3f,%d", c->clip.name, ff_build_clip_seconds(c), r->was_clean ? 1 : 0);
     const ff_change mm[] = {r->pin_median, r->pin_worst, r->skate, r->floor_dip};
     for (size_t i = 0; i < sizeof mm / sizeof mm[0]; ++i)
         printf(",%.4f,%.4f", 1e3 * mm[i].before, 1e3 * mm[i].after);
@@ -76,7 +82,7 @@ static void print_table(const ff_build_clip *c)
     printf(
         "%-32.32s %6.1f | %5.1f %5.1f  %5.2f %5.2f | %5.1f %5.1f | %5.2f %5.2f %5.1f | %5.2f | %5.1f %5.1f | "
         "%5.1f%s\n",
-        c->clip.name, ff_clip_seconds(&c->clip), 1e3 * r->pin_median.before, 1e3 * r->pin_worst.before,
+        c->clip.name, ff_build_clip_seconds(c), 1e3 * r->pin_median.before, 1e3 * r->pin_worst.before,
         1e3 * r->pin_median.after, 1e3 * r->pin_worst.after, 1e3 * r->skate.before, 1e3 * r->skate.after,
         r->turn_mean / FF_DEG, r->turn_most_95 / FF_DEG, r->turn_most / FF_DEG, r->acceleration,
         1e3 * r->floor_dip.before, 1e3 * r->floor_dip.after, r->knee_least.after / FF_DEG,
@@ -220,7 +226,7 @@ static int clean_inputs(const ff_operands *inputs, clean_layout layout, uint32_t
     ff_catalogue catalogue;
     if (ff_catalogue_read(inputs->items, inputs->count, &catalogue, &error) != FF_OK)
         return ff_command_fail(PROGRAM, &error);
-    clean_run run = {.catalogue = &catalogue};
+    clean_run run = {.catalogue = &catalogue, .settings = ff_settings_default()};
     int result = clean_all(&run, threads, quiet, &error) == FF_OK ? print_all(&run, layout)
                                                                   : ff_command_fail(PROGRAM, &error);
     for (int i = 0; run.clips && i < catalogue.count; ++i)

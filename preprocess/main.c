@@ -1,14 +1,19 @@
 /* footfall-pack - makes motion packs from clips, and shows what is in clips and packs. */
+#define _POSIX_C_SOURCE 200809L
 #include "mocap/generator/generator.h"
 #include "preprocess/build.h"
 #include "preprocess/clean_command.h"
 #include "preprocess/plants_command.h"
 #include "preprocess/report.h"
+#include "preprocess/settings.h"
 #include "preprocess/steps_command.h"
 #include "runtime/tool/command_line.h"
 
+#include <signal.h>
+
 static const ff_subcommand commands[] = {
     {"build", "make a motion pack from clips", ff_build_command},
+    {"config", "print every setting of build", ff_config_command},
     {"inspect", "say what is in a motion pack", ff_inspect_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
     {"steps", "how clips are walked, in numbers", ff_steps_command},
@@ -20,6 +25,8 @@ static const ff_subcommand commands[] = {
 
 int main(int argc, char **argv)
 {
+    /* A file that may not grow any more is an error like a full disk, which is told and cleaned up after. */
+    signal(SIGXFSZ, SIG_IGN);
     return ff_command_dispatch("footfall-pack", "make motion packs from motion capture", commands, argc,
                                argv);
 }

@@ -68,9 +68,10 @@ static json_t *clip_entry(const ff_build_clip *clip, const ff_build_settings *se
                   clip->clip.name, "source", clip->source, "hash", hash, "licence", clip->licence, "citation",
                   clip->citation, "tags", clip->tags, "mode", clip->mode, "first_frame", clip->first_frame,
                   "mirror", clip->mirror ? 1 : 0, "subject", clip->subject, "unit_m", clip->clip.unit_m,
-                  "frames", clip->clip.frame_count, "rejected", rejections_of(clip));
+                  "frames", clip->frames, "rejected", rejections_of(clip));
     if (entry && clip->repaired.count > 0) json_object_set_new(entry, "broken", breaks_of(clip));
-    if (entry && settings->clean) json_object_set_new(entry, "clean", clean_entry(&clip->cleaned));
+    if (entry && settings->pack.motion.clean)
+        json_object_set_new(entry, "clean", clean_entry(&clip->cleaned));
     if (entry && clip->clip.warning_count > 0)
         json_object_set_new(entry, "warning", json_string(clip->clip.warning));
     return entry;
@@ -100,9 +101,8 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
         json_array_append_new(clip_list, clip_entry(&clips[i], settings));
     for (int i = 0; i < skipped_count; ++i)
         json_array_append_new(skipped_list, skipped_entry(&skipped[i]));
-    json_t *root = json_pack("{s:s, s:s, s:{s:f, s:b, s:b}, s:{s:i, s:i, s:o}, s:o, s:o}", "tool",
-                             "footfall-pack", "version", FF_VERSION, "settings", "rate", settings->rate,
-                             "strict", settings->strict ? 1 : 0, "clean", settings->clean ? 1 : 0, "examples",
+    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:i, s:i, s:o}, s:o, s:o}", "tool", "footfall-pack",
+                             "version", FF_VERSION, "settings", ff_settings_json(&settings->pack), "examples",
                              "base_subject", set->base, "candidates", set->candidates, "left_out",
                              left_out_entries(set), "clips", clip_list, "skipped", skipped_list);
     char *text = root ? json_dumps(root, JSON_INDENT(1)) : NULL;

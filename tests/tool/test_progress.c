@@ -35,11 +35,27 @@ static void off_a_terminal_long_work_prints_plain_lines(void **state)
     assert_string_equal(ff_capture_end(&capture), "reading 2/3 b.bvh\n");
 }
 
+static void long_work_tells_the_time_left_by_weight(void **state)
+{
+    (void)state;
+    ff_capture capture;
+    ff_capture_start(&capture, stderr);
+    ff_progress *progress = ff_progress_start("cutting", 3, false);
+    ff_progress_weigh(progress, 91.0);
+    nanosleep(&(struct timespec){2, 20000000}, NULL);
+    ff_progress_step_by(progress, "a.bvh", 1.0); /* a ninetieth of the work: too little to tell from */
+    nanosleep(&(struct timespec){1, 20000000}, NULL);
+    ff_progress_step_by(progress, "b.bvh", 9.0);
+    ff_progress_end(progress);
+    assert_string_equal(ff_capture_end(&capture), "cutting 1/3 a.bvh\ncutting 2/3, 0:25 left b.bvh\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quiet_and_short_work_print_nothing),
         cmocka_unit_test(off_a_terminal_long_work_prints_plain_lines),
+        cmocka_unit_test(long_work_tells_the_time_left_by_weight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

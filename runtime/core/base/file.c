@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,7 +64,7 @@ static int write_all(int fd, const char *data, size_t size)
     return 0;
 }
 
-ff_status ff_file_write_atomic(const char *path, const void *data, size_t size, ff_error *error)
+static ff_status write_by_rename(const char *path, const void *data, size_t size, bool sync, ff_error *error)
 {
     size_t length = strlen(path) + 32;
     char *temporary = malloc(length);
@@ -76,7 +77,7 @@ ff_status ff_file_write_atomic(const char *path, const void *data, size_t size, 
     } else {
         mode_t mask = umask(0);
         umask(mask);
-        if (write_all(fd, data, size) != 0 || fchmod(fd, 0666 & ~mask) != 0 || fsync(fd) != 0) {
+        if (write_all(fd, data, size) != 0 || fchmod(fd, 0666 & ~mask) != 0 || (sync && fsync(fd) != 0)) {
             status = fail_system(error, path, "write this file");
         }
         if (close(fd) != 0 && status == FF_OK) status = fail_system(error, path, "write this file");
@@ -86,6 +87,16 @@ ff_status ff_file_write_atomic(const char *path, const void *data, size_t size, 
     }
     free(temporary);
     return status;
+}
+
+ff_status ff_file_write_atomic(const char *path, const void *data, size_t size, ff_error *error)
+{
+    return write_by_rename(path, data, size, true, error);
+}
+
+ff_status ff_file_write_unsynced(const char *path, const void *data, size_t size, ff_error *error)
+{
+    return write_by_rename(path, data, size, false, error);
 }
 
 ff_status ff_folder_create(const char *path, ff_error *error)

@@ -18,6 +18,9 @@ void ff_file_unmap(ff_file *file);
  * temporary file is gone. */
 ff_status ff_file_write_atomic(const char *path, const void *data, size_t size, ff_error *error);
 
+/* The same without waiting until the disk has it: for what may be lost in a power cut, or be damaged by one. */
+ff_status ff_file_write_unsynced(const char *path, const void *data, size_t size, ff_error *error);
+
 /* Create a folder and its parents; an existing folder is fine. */
 ff_status ff_folder_create(const char *path, ff_error *error);
 

@@ -1,0 +1,201 @@
+#include "preprocess/settings.h"
+
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/file.h"
+#include "runtime/core/base/memory.h"
+#include "runtime/core/pack_format.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <xxhash.h>
+
+#define NUMBER(section, key, stage, unit, standard, low, high, what)                                         \
+    {                                                                                                        \
+#section, #key, FF_SETTING_NUMBER, stage, unit, standard, low, high, what,                           \
+            offsetof(ff_settings, section.key)                                                               \
+    }
+
+#define SWITCH(section, key, stage, standard, what)                                                          \
+    {                                                                                                        \
+#section, #key, FF_SETTING_SWITCH, stage, "", standard, 0.0, 1.0, what,                              \
+            offsetof(ff_settings, section.key)                                                               \
+    }
+
+/* Settings of one section stand together. */
+const ff_setting ff_setting_table[] = {
+    SWITCH(motion, clean, FF_STAGE_CUT, true, "planted feet are made to stand still"),
+    NUMBER(poses, rate, FF_STAGE_PACK, "Hz", FF_PACK_RATE, 10.0, 240.0,
+           "poses per second of the clips in the pack"),
+};
+const int ff_setting_count = sizeof ff_setting_table / sizeof ff_setting_table[0];
+
+static void *place_of(ff_settings *settings, const ff_setting *setting)
+{
+    return (char *)settings + setting->place;
+}
+
+double ff_setting_value(const ff_settings *settings, const ff_setting *setting)
+{
+    const void *place = (const char *)settings + setting->place;
+    switch (setting->kind) {
+    case FF_SETTING_WHOLE:
+        return (double)*(const int64_t *)place;
+    case FF_SETTING_SWITCH:
+        return *(const bool *)place ? 1.0 : 0.0;
+    default:
+        return *(const double *)place;
+    }
+}
+
+static void set_value(ff_settings *settings, const ff_setting *setting, double value)
+{
+    void *place = place_of(settings, setting);
+    switch (setting->kind) {
+    case FF_SETTING_WHOLE:
+        *(int64_t *)place = (int64_t)value;
+        break;
+    case FF_SETTING_SWITCH:
+        *(bool *)place = value != 0.0;
+        break;
+    default:
+        *(double *)place = value;
+    }
+}
+
+ff_settings ff_settings_default(void)
+{
+    ff_settings settings;
+    memset(&settings, 0, sizeof settings);
+    for (int i = 0; i < ff_setting_count; ++i)
+        set_value(&settings, &ff_setting_table[i], ff_setting_table[i].standard);
+    return settings;
+}
+
+uint64_t ff_settings_hash(const ff_settings *settings, ff_setting_stage up_to, uint64_t seed)
+{
+    for (int i = 0; i < ff_setting_count; ++i) {
+        const ff_setting *s = &ff_setting_table[i];
+        double value = ff_setting_value(settings, s);
+        if (s->stage <= up_to) seed = XXH64(&value, sizeof value, seed);
+    }
+    return seed;
+}
+
+json_t *ff_settings_json(const ff_settings *settings)
+{
+    json_t *root = json_object();
+    for (int i = 0; i < ff_setting_count; ++i) {
+        const ff_setting *s = &ff_setting_table[i];
+        double value = ff_setting_value(settings, s);
+        json_t *section = json_object_get(root, s->section);
+        if (!section) {
+            section = json_object();
+            json_object_set_new(root, s->section, section);
+        }
+        json_object_set_new(section, s->key,
+                            s->kind == FF_SETTING_NUMBER  ? json_real(value)
+                            : s->kind == FF_SETTING_WHOLE ? json_integer((json_int_t)value)
+                                                          : json_boolean(value != 0.0));
+    }
+    return root;
+}
+
+/* ----------------------------------------------------------------------------------------------------- reading */
+
+static bool is_comment(const char *key)
+{
+    return strncmp(key, "//", 2) == 0;
+}
+
+/* Refuse members that are neither in known (count names) nor comments, and comments that are no text. */
+static ff_status check_keys(const ff_json *json, json_t *object, const char *const *known, size_t count,
+                            ff_error *error)
+{
+    const char **allowed = ff_calloc(count + json_object_size(object) + 1, sizeof *allowed), *key;
+    if (!allowed) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the configuration");
+    memcpy(allowed, known, count * sizeof *allowed);
+    json_t *value;
+    ff_status status = FF_OK;
+    json_object_foreach(object, key, value)
+    {
+        if (!is_comment(key)) continue;
+        allowed[count++] = key;
+        if (!json_is_string(value) && status == FF_OK)
+            status = ff_json_fail_key(json, object, key, error,
+                                      "a key that begins with // is a comment; its value must be a text");
+    }
+    if (status == FF_OK) status = ff_json_only_keys(json, object, allowed, error);
+    free(allowed);
+    return status;
+}
+
+static ff_status read_setting(const ff_json *json, const json_t *section, const ff_setting *setting,
+                              ff_settings *out, ff_error *error)
+{
+    void *place = place_of(out, setting);
+    switch (setting->kind) {
+    case FF_SETTING_WHOLE:
+        return ff_json_integer(json, section, setting->key, (int64_t)setting->low, (int64_t)setting->high,
+                               place, error);
+    case FF_SETTING_SWITCH:
+        return ff_json_bool(json, section, setting->key, place, error);
+    default:
+        return ff_json_number(json, section, setting->key, setting->low, setting->high, place, error);
+    }
+}
+
+static ff_status read_section(const ff_json *json, json_t *root, const char *name, ff_settings *out,
+                              ff_error *error)
+{
+    json_t *section = json_object_get(root, name);
+    if (!section) return FF_OK;
+    if (!json_is_object(section))
+        return ff_json_fail_key(json, root, name, error, "\"%s\": expected an object { ... } of settings",
+                                name);
+    const char *keys[64];
+    size_t count = 0;
+    for (int i = 0; i < ff_setting_count && count < sizeof keys / sizeof keys[0]; ++i)
+        if (strcmp(ff_setting_table[i].section, name) == 0) keys[count++] = ff_setting_table[i].key;
+    ff_status status = check_keys(json, section, keys, count, error);
+    for (int i = 0; i < ff_setting_count && status == FF_OK; ++i)
+        if (strcmp(ff_setting_table[i].section, name) == 0)
+            status = read_setting(json, section, &ff_setting_table[i], out, error);
+    return status;
+}
+
+static ff_status read_root(const ff_json *json, ff_settings *out, ff_error *error)
+{
+    const char *sections[32];
+    size_t count = 0;
+    for (int i = 0; i < ff_setting_count && count < sizeof sections / sizeof sections[0]; ++i)
+        if (i == 0 || strcmp(ff_setting_table[i].section, sections[count - 1]) != 0)
+            sections[count++] = ff_setting_table[i].section;
+    ff_status status = check_keys(json, json->root, sections, count, error);
+    for (size_t i = 0; i < count && status == FF_OK; ++i)
+        status = read_section(json, json->root, sections[i], out, error);
+    return status;
+}
+
+ff_status ff_settings_parse(const char *text, size_t size, const char *name, ff_settings *out,
+                            ff_error *error)
+{
+    ff_json json;
+    ff_settings read = ff_settings_default();
+    ff_status status = ff_json_parse(text, size, name, &json, error);
+    if (status != FF_OK) return status;
+    status = read_root(&json, &read, error);
+    ff_json_free(&json);
+    if (status == FF_OK) *out = read;
+    return status;
+}
+
+ff_status ff_settings_load(const char *path, ff_settings *out, ff_error *error)
+{
+    ff_file file;
+    ff_status status = ff_file_map(path, &file, error);
+    if (status != FF_OK) return status;
+    status = ff_settings_parse(file.data, file.size, path, out, error);
+    ff_file_unmap(&file);
+    return status;
+}
