@@ -11,6 +11,11 @@ static ff_status parse(const char *text, ff_settings *out, ff_error *error)
     return ff_settings_parse(text, strlen(text), "my.json", out, error);
 }
 
+static bool equal(const ff_settings *a, const ff_settings *b)
+{
+    return ff_settings_hash(a, FF_STAGE_PACK, 1) == ff_settings_hash(b, FF_STAGE_PACK, 1);
+}
+
 static void every_setting_is_described_and_its_default_is_in_range(void **state)
 {
     (void)state;
@@ -75,7 +80,7 @@ static void what_is_absent_keeps_its_default_and_comments_are_allowed_anywhere(v
     ff_settings settings, standard = ff_settings_default();
     ff_error error;
     FF_ASSERT_OK(parse("{}", &settings, &error), error);
-    assert_memory_equal(&settings, &standard, sizeof settings);
+    assert_true(equal(&settings, &standard));
     FF_ASSERT_OK(
         parse("{\"//\": \"mine\", \"poses\": {\"// rate\": \"slow\", \"rate\": 30}}", &settings, &error),
         error);
@@ -110,7 +115,7 @@ static void what_is_wrong_is_refused_at_its_place_and_changes_nothing(void **sta
         assert_string_equal(error.file, "my.json");
         assert_int_equal(error.line, cases[i].line);
         if (cases[i].column) assert_int_equal(error.column, cases[i].column);
-        assert_memory_equal(&settings, &before, sizeof settings);
+        assert_true(equal(&settings, &before));
     }
 }
 
