@@ -1,6 +1,7 @@
 #include "preprocess/clean_finish.h"
 
 #define FADE (10.0 / 120.0)       /* s */
+#define TOE_UNDER 0.006           /* m, how far a toe tip may be under its height on the ground */
 #define HEEL_MOST (20.0 * FF_DEG) /* by which a heel may rise where the leg is too short */
 #define KNEE_LEAST (0.6 * FF_DEG)
 
@@ -94,10 +95,12 @@ static correction find_correction(const ff_rig *rig, const ff_clean_pose *pose, 
     ff_vec3 heel, ball, to_ball = rig->offset[ff_leg_role(pin->foot, FF_LEG_BALL)];
     ff_vec3 to_heel = rig->offset[pin->foot == FF_LEFT ? FF_BODY_HEEL_L : FF_BODY_HEEL_R];
     ff_clean_plant_places(rig, plant, &heel, &ball);
-    ff_vec3 along = ff_quat_rotate(leg.foot, ff_unit3(ff_sub3(to_ball, to_heel)));
-    ff_quat turn = ff_quat_between(along, ff_unit3(ff_sub3(ball, heel)));
-    ff_quat foot =
-        raise_heel(leg.hip, longest_reach(rig, pin->foot), ball, to_ball, ff_quat_mul(turn, leg.foot));
+    ff_quat foot = leg.foot;
+    if (!pin->heel_free) {
+        ff_vec3 along = ff_quat_rotate(foot, ff_unit3(ff_sub3(to_ball, to_heel)));
+        foot = ff_quat_mul(ff_quat_between(along, ff_unit3(ff_sub3(ball, heel))), foot);
+    }
+    foot = raise_heel(leg.hip, longest_reach(rig, pin->foot), ball, to_ball, foot);
     ff_vec3 ankle = ff_sub3(ball, ff_quat_rotate(foot, to_ball));
     return (correction){ff_sub3(ankle, leg.ankle), ff_quat_log(ff_quat_mul(foot, ff_quat_conj(leg.foot)))};
 }
@@ -139,6 +142,28 @@ static void fade_out(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *
     }
 }
 
+/* Bend toes that are under the ground up to it. */
+static void lift_toes(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins, int frame)
+{
+    const double zero[FF_CLEAN_LEG] = {0};
+    ff_clean_pose pose;
+    ff_clean_pose_read(motion, frame, &pose);
+    for (int side = 0; side < 2; ++side) {
+        ff_vec3 places[FF_FOOT_PLACES];
+        ff_clean_foot(rig, &pose, side, zero, zero, places, NULL);
+        ff_vec3 toes = ff_sub3(places[FF_FOOT_AT_TOE], places[FF_FOOT_AT_BALL]);
+        double lowest = ff_clean_ground(pins, side, frame) - TOE_UNDER;
+        if (places[FF_FOOT_AT_TOE].y >= lowest) continue;
+        double length = ff_length3(toes), flat = ff_length2(ff_plane(toes));
+        double rise = ff_clamp(lowest - places[FF_FOOT_AT_BALL].y, -0.7 * length, 0.7 * length);
+        double angle = ff_atan2(rise, sqrt(length * length - rise * rise)) - ff_atan2(toes.y, flat);
+        if (angle > 0.0)
+            pose.legs[side][FF_LEG_BALL] =
+                ff_quat_mul(pose.legs[side][FF_LEG_BALL], ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -angle));
+    }
+    ff_clean_pose_write(&pose, motion, frame);
+}
+
 void ff_clean_finish(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins)
 {
     for (int i = 0; i < pins->count; ++i) {
@@ -155,4 +180,6 @@ void ff_clean_finish(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *
         fade_out(rig, motion, pins, i, -1, &at_first);
         fade_out(rig, motion, pins, i, 1, &at_last);
     }
+    for (int frame = 0; frame < motion->frame_count; ++frame)
+        lift_toes(rig, motion, pins, frame);
 }
