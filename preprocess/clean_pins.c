@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* m: planted balls so far from the floor plane stand on uneven ground. */
-#define UNEVEN 0.08
 /* m: a foot found flat whose heel is so much over its ball stands on the ball; so much under it, is broken capture. */
 #define HEEL_UP 0.02
 #define HEEL_DOWN 0.04
@@ -115,6 +113,13 @@ static void add_pin(const ff_rig *rig, const ff_motion *motion, const ff_plant *
     pins->items[pins->count++] = pin;
 }
 
+static bool is_uneven(const ff_plants *plants)
+{
+    for (int i = 0; i < plants->count; ++i)
+        if (fabs(plants->items[i].level) > 0.0) return true;
+    return false;
+}
+
 ff_status ff_clean_pins_find(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
                              ff_clean_pins *out, ff_error *error)
 {
@@ -124,7 +129,7 @@ ff_status ff_clean_pins_find(const ff_rig *rig, const ff_motion *motion, const f
     *out = (ff_clean_pins){.items = ff_calloc(n, sizeof *out->items),
                            .plants = ff_calloc(n, sizeof *out->plants),
                            .rest = rest[FF_ROLE_BALL_L].y,
-                           .uneven = plants->floor.residual > UNEVEN};
+                           .uneven = is_uneven(plants)};
     if (!out->items || !out->plants) {
         ff_clean_pins_free(out);
         return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %d pinned feet", plants->count);
