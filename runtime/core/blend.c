@@ -218,6 +218,9 @@ static void project(const ff_blend_space *space, ff_vec3 p, ff_blend *out)
     }
 }
 
+/* Of the turn rate asked for: with less of it one would go on, but not where one wants to. */
+#define LEAST_TURN 0.15
+
 static bool locate(const ff_blend_space *space, ff_vec3 p, ff_blend *out)
 {
     cell_box box = cells_of(space, p, p);
@@ -267,4 +270,16 @@ ff_rates ff_blend_clamp(const ff_blend_space *space, ff_rates target)
     project(space, p, &blend);
     weigh_by_period(space, &blend);
     return blend.rates;
+}
+
+ff_rates ff_blend_clamp_turn(const ff_blend_space *space, ff_rates target)
+{
+    ff_blend blend;
+    if (locate(space, ff_blend_point(target), &blend)) return target;
+    ff_rates going = ff_blend_clamp(space, (ff_rates){target.forward, target.left, 0.0});
+    for (double share = 1.0; share > LEAST_TURN; share *= 0.7) {
+        ff_rates both = {going.forward, going.left, share * target.turn};
+        if (locate(space, ff_blend_point(both), &blend)) return both;
+    }
+    return ff_blend_clamp(space, target);
 }

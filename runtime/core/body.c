@@ -27,6 +27,7 @@ static ff_rates target_rates(const ff_body *body, ff_vec2 command, double facing
 {
     bool idle = ff_dot2(command, command) < IDLE * IDLE;
     ff_vec2 local = idle ? ff_v2(0.0, 0.0) : ff_to_frame2(ff_fwd2(body->heading), command);
+    if (!limits->back_pedal) local.a = ff_max(local.a, 0.0);
     double error = ff_wrap(facing - body->heading);
     if (idle && fabs(error) < FACING_SLACK) error = 0.0;
     double turn = ff_clamp(error / FACING_TIME, -TURN_MAX, TURN_MAX);

@@ -26,7 +26,8 @@ typedef struct ff_body_limits {
     const void *context;
     const ff_wall *const *walls; /* those near the body */
     uint32_t wall_count;
-    double radius; /* m, that is kept off the walls */
+    double radius;   /* m, that is kept off the walls */
+    bool back_pedal; /* else a command to go backwards only slows down, until the body has turned round */
 } ff_body_limits;
 
 /* The velocity of the root in the plane. */

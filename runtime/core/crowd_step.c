@@ -62,8 +62,9 @@ static void snapshot(ff_crowd *crowd)
         bool outside = baseline(crowd, slot) && !crowd->def.baseline.model_velocity;
         ff_vec2 velocity = outside ? mind->measured : ff_body_velocity(body);
         /* Study 4, 4; ORCA alone knows no command but what is seen. */
-        ff_vec2 reference =
-            baseline(crowd, slot) ? velocity : ff_scale2(ff_add2(mind->command, velocity), 0.5);
+        ff_vec2 reference = baseline(crowd, slot) ? velocity
+                                                  : ff_nav_reference(&crowd->def.mcn, &crowd->traits[slot],
+                                                                     mind, body->position, velocity);
         crowd->unsorted[count++] = (ff_seen){.position = body->position,
                                              .velocity = velocity,
                                              .reference = reference,
@@ -102,7 +103,7 @@ static void navigate(ff_crowd *crowd, uint32_t index)
 
 static ff_rates clamp_to_examples(const void *space, ff_rates target)
 {
-    return ff_blend_clamp(space, target);
+    return ff_blend_clamp_turn(space, target);
 }
 
 /* Where in a step the legs are: 0 at a contact, DOUBLE_SUPPORT when the other foot leaves (key phases, synthesis study
@@ -122,7 +123,8 @@ static void move(ff_crowd *crowd, uint32_t index)
     const ff_wall *walls[FF_NEAR_WALLS_MAX];
     double radius = crowd->traits[slot].radius, dt = crowd->def.step;
     ff_vec2 before = body->position;
-    ff_body_limits limits = {clamp_to_examples, crowd->space, walls, 0, radius};
+    ff_body_limits limits = {
+        clamp_to_examples, crowd->space, walls, 0, radius, crowd->def.mcn.back_pedal || mind->standing};
     limits.wall_count = ff_walls_near(&crowd->walls, before, radius + 1.0, walls);
     ff_gait *gait = ff_crowd_gait(crowd, slot);
     body->phase = step_phase(gait);

@@ -10,10 +10,9 @@
 /* Navigation study, section 4, unless another source is named. */
 #define DENSITY_BETA 0.0
 #define LEAN 0.1 /* rad: who meets head on, nearly, passes on the side of the convention (not in the study) */
-#define COMMAND_CHANGE 2.0 /* m/s^2 */
-#define STAND_SPEED 0.6    /* m/s, at which one who stands steps aside at most */
-#define STAND_CHANGE 3.0   /* m/s^2 */
-#define STAND_FIRM 0.25    /* m/s, what he does not budge for */
+#define STAND_SPEED 0.6  /* m/s, at which one who stands steps aside at most */
+#define STAND_CHANGE 3.0 /* m/s^2 */
+#define STAND_FIRM 0.25  /* m/s, what he does not budge for */
 
 /* The steady form of eq 9: the velocity at which the drive and the forces balance. */
 static ff_vec2 adapt_by_forces(const ff_nav_view *view, ff_vec2 preferred)
@@ -92,6 +91,16 @@ void ff_mind_forget_goal(ff_mind *mind)
     mind->detours = mind->standing = 0;
 }
 
+ff_vec2 ff_nav_reference(const ff_mcn_def *mcn, const ff_traits *traits, const ff_mind *mind,
+                         ff_vec2 position, ff_vec2 velocity)
+{
+    ff_vec2 reference = ff_scale2(ff_add2(mind->command, velocity), 0.5);
+    ff_vec2 to_goal = ff_sub2(traits->goal, position);
+    bool inside = ff_dot2(to_goal, to_goal) <= traits->goal_tolerance * traits->goal_tolerance;
+    if (mind->standing || !inside) return reference;
+    return ff_shorten2(reference, ff_max(ff_length2(reference) - FF_COMMAND_CHANGE * mcn->prediction, 0.0));
+}
+
 /* One who stands makes way and steps out of the way, slowly and not for every trifle. */
 static void stand(const ff_nav_view *view, ff_constraints *lines, ff_vec2 wish, ff_mind *mind)
 {
@@ -108,7 +117,7 @@ static void walk(const ff_nav_view *view, ff_constraints *lines, ff_vec2 preferr
     double step = view->world->step;
     ff_vec2 wish = mcn->forces ? adapt_by_forces(view, preferred) : preferred;
     if (mcn->density) wish = adapt_to_density(view, preferred, wish);
-    ff_circle near = {mind->command, COMMAND_CHANGE * step};
+    ff_circle near = {mind->command, FF_COMMAND_CHANGE * step};
     ff_circle wide = {ff_v2(0.0, 0.0), FF_SPEED_MAX};
     mind->command = ff_nav_solve(lines, mcn->gradual ? near : wide, wide, wish);
     mind->facing = ff_nav_facing((ff_facing_rule){mcn->facing, mcn->back_pedal}, preferred, mind->command,

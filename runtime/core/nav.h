@@ -61,6 +61,12 @@ ff_mind ff_mind_new(double heading);
 /* The goal has changed. */
 void ff_mind_forget_goal(ff_mind *mind);
 
+/* What ORCA takes an agent to be doing, for itself and for others: midway between what it was asked for and what it does.
+ * Of one who brakes at its goal a little less: who follows closely would otherwise wait for it to slow down, and it for
+ * room to do so, and both would walk on past the goal. */
+ff_vec2 ff_nav_reference(const ff_mcn_def *mcn, const ff_traits *traits, const ff_mind *mind,
+                         ff_vec2 position, ff_vec2 velocity);
+
 /* Decide for grid->seen[self] with these neighbours (from ff_grid_neighbours): updates mind. */
 void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours, uint32_t count,
                  const ff_traits *traits, const ff_nav_body *body, ff_mind *mind);

@@ -10,7 +10,7 @@ ff_vec2 ff_nav_orca(const ff_nav_view *view, ff_vec2 preferred)
     ff_constraints lines;
     ff_circle circle = {ff_v2(0.0, 0.0), FF_SPEED_MAX};
     ff_nav_add_walls(view, &lines);
-    ff_nav_add_agents(view, (ff_avoiding){.weighted = false}, &lines);
+    ff_nav_add_agents(view, (ff_avoiding){0}, &lines);
     return ff_nav_solve(&lines, circle, circle, preferred);
 }
 

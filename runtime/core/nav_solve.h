@@ -10,7 +10,7 @@
 typedef struct ff_line {
     ff_vec2 point;     /* m/s */
     ff_vec2 direction; /* unit */
-    double weight;     /* >= 1, how much a violation counts in ff_solve_dense */
+    double weight;     /* > 0, how much a violation counts in ff_solve_dense */
 } ff_line;
 
 typedef struct ff_circle {

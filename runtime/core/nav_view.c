@@ -3,8 +3,11 @@
 #include "runtime/core/nav_forces.h"
 #include "runtime/core/nav_orca.h"
 
-#define SHARE 0.5        /* of the avoidance, as the other does the same */
-#define WEIGHT_MAX 4.0   /* of the most pressing neighbour in the dense fallback */
+#define SHARE 0.5      /* of the avoidance, as the other does the same */
+#define WEIGHT_MAX 4.0 /* of the most pressing neighbour in the dense fallback */
+/* Of somebody behind: who follows looks out for himself. Else those in a column cannot brake for one who comes from the
+ * side, each because of the next behind him (not in the study). */
+#define BEHIND 0.5
 #define WALL_HORIZON 1.0 /* s, algorithms C.7 */
 #define WALL_REACH 3.5   /* m: top speed for the horizon, and some */
 #define OVERLAP_TIME 0.1 /* s, algorithms C.7: shorter steps must not kick harder */
@@ -65,8 +68,9 @@ static ff_line avoid(const ff_nav_view *view, const ff_neighbour *neighbour, ff_
     ff_line line =
         ff_orca_disc(then, ff_sub2(me->reference, other->reference), me->reference, reach, FF_HORIZON - ahead,
                      SHARE, ff_max(view->world->step, OVERLAP_TIME), how.lean, apart(me, other));
-    if (how.weighted)
-        line.weight = ff_clamp(FF_HORIZON / ff_max(neighbour->time, OVERLAP_TIME), 1.0, WEIGHT_MAX);
+    if (!how.weighted) return line;
+    line.weight = ff_clamp(FF_HORIZON / ff_max(neighbour->time, OVERLAP_TIME), 1.0, WEIGHT_MAX);
+    if (!me->standing && ff_dot2(now, me->velocity) < 0.0) line.weight *= BEHIND;
     return line;
 }
 

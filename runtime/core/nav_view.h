@@ -8,6 +8,7 @@
 #define FF_RELAXATION 0.54    /* s, of eq 9 */
 #define FF_HORIZON 2.5        /* s, of ORCA */
 #define FF_SPEED_MAX 2.2      /* m/s */
+#define FF_COMMAND_CHANGE 2.0 /* m/s^2, of MCN */
 #define FF_COMMAND_STILL 0.05 /* m/s: a command below it has no direction */
 
 typedef struct ff_nav_view {

@@ -27,6 +27,10 @@ void ff_blend_space_destroy(ff_blend_space *space);
 /* The rates nearest to target that the examples can be blended to. Allocates nothing; thread-safe. */
 ff_rates ff_blend_clamp(const ff_blend_space *space, ff_rates target);
 
+/* The same for bodies: going where one is asked to go comes first, and one turns as fast as goes with it (unless that is
+ * hardly at all). The nearest rates would have somebody who is asked for a quick turn stop for it. */
+ff_rates ff_blend_clamp_turn(const ff_blend_space *space, ff_rates target);
+
 /* Everything synthesis remembers of one agent: plain data, no pointers, hashed as bytes (so no padding may be
  * left undefined: ff_gait_init zeroes it). */
 typedef struct ff_gait ff_gait;

@@ -70,7 +70,7 @@ ff_status ff_recording_begin(ff_recording *recording, ff_error *error)
 
 bool ff_recording_wants_pose(const ff_recording *recording)
 {
-    return (recording->step_count - 1) % recording->pose_stride == 0;
+    return recording->pose_stride > 0 && (recording->step_count - 1) % recording->pose_stride == 0;
 }
 
 void ff_recording_set_track(ff_recording *recording, uint32_t agent, const ff_agent_state *state)

@@ -20,7 +20,7 @@ typedef struct ff_track {
 typedef struct ff_recording {
     uint32_t agent_count, joint_count;
     double step;          /* s between tracks */
-    uint32_t pose_stride; /* steps between poses */
+    uint32_t pose_stride; /* steps between poses; 0 = none are kept */
     uint32_t step_count;  /* tracks taken; the first is the start, time 0 */
     uint32_t pose_count;
     ff_array tracks;    /* ff_track [step][agent] */

@@ -2,6 +2,7 @@
 #ifndef FF_WATCH_H
 #define FF_WATCH_H
 
+#include "runtime/export/body_contacts.h"
 #include "runtime/export/metrics.h"
 #include "runtime/export/scene.h"
 #include "runtime/export/skate.h"
@@ -10,7 +11,11 @@ typedef struct ff_watch {
     const ff_scene *scene; /* borrowed */
     double *radii;
     ff_collisions collisions;
+    ff_contacts contacts;
     ff_skate skate;
+    ff_quat *last; /* [agent][joint] rotations of the last step */
+    uint32_t joint_count;
+    double least_dot;      /* of the rotations of any joint in two steps running */
     double rest_height[2]; /* m, of the balls of the feet */
 } ff_watch;
 

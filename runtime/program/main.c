@@ -1,9 +1,11 @@
 /* footfall-crowd - runs crowds of people on motion packs. */
+#include "runtime/program/bench.h"
 #include "runtime/program/run.h"
 #include "runtime/tool/command_line.h"
 
 static const ff_subcommand commands[] = {
     {"run", "run a scene on a motion pack and write what happened to files", ff_run_main},
+    {"bench", "measure, and compare with others and with the paper", ff_bench_main},
     {0},
 };
 

@@ -47,6 +47,11 @@ static ff_status create_crowd(const ff_simulation *simulation, ff_crowd **crowd,
     return ff_crowd_create(simulation->pack, &def, crowd, error);
 }
 
+static bool is_near(const ff_scene *scene, uint32_t agent, const ff_agent_state *state)
+{
+    return ff_length2(ff_sub2(state->goal, state->position)) <= ff_scene_agents(scene)[agent].goal_tolerance;
+}
+
 /* Put what every agent does now into the recording's next step. */
 static ff_status record(ff_simulation *simulation, ff_crowd *crowd, ff_agent *handles, ff_error *error)
 {
@@ -60,6 +65,8 @@ static ff_status record(ff_simulation *simulation, ff_crowd *crowd, ff_agent *ha
         status = ff_crowd_agent_state(crowd, handles[i], &state, error);
         if (status == FF_OK) status = ff_crowd_agent_pose(crowd, handles[i], &hips, rotations, error);
         if (status != FF_OK) break;
+        if (simulation->leave_walking && simulation->scene->leave && is_near(simulation->scene, i, &state))
+            state.reached = 1;
         ff_recording_set_track(recording, i, &state);
         if (ff_recording_wants_pose(recording)) ff_recording_set_pose(recording, i, hips, rotations);
         status = ff_watch_pose(&simulation->watch, simulation->figure, i, &state, hips, rotations, error);
@@ -104,6 +111,7 @@ ff_status ff_simulate(ff_simulation *simulation, ff_error *error)
         status =
             ff_recording_create(agents, simulation->figure->joint_count, scene->step,
                                 (uint64_t)(scene->seconds / scene->step) + 2, &simulation->recording, error);
+    if (simulation->tracks_only) simulation->recording.pose_stride = 0;
     if (status == FF_OK) status = ff_watch_create(scene, simulation->figure, &simulation->watch, error);
     if (status == FF_OK) status = create_crowd(simulation, &crowd, error);
     if (status == FF_OK) status = populate(scene, crowd, handles, error);

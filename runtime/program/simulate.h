@@ -11,6 +11,8 @@ typedef struct ff_simulation {
     const ff_figure *figure;
     uint32_t threads;
     bool quiet;
+    bool tracks_only;   /* do not keep poses; they are measured all the same */
+    bool leave_walking; /* who leaves does so as soon as the goal is near enough, without standing first */
     /* Made by ff_simulate: */
     ff_recording recording;
     ff_watch watch;

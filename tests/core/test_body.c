@@ -14,7 +14,7 @@ static ff_rates box(const void *context, ff_rates target)
     return target;
 }
 
-static const ff_body_limits open_ground = {box, NULL, NULL, 0, 0.3};
+static const ff_body_limits open_ground = {box, NULL, NULL, 0, 0.3, false};
 
 static void a_command_is_reached_with_the_lag_of_legs(void **state)
 {
@@ -107,7 +107,7 @@ static void no_command_brings_the_disc_into_a_wall(void **state)
     const ff_wall *walls[4];
     for (int i = 0; i < 4; ++i)
         wall[i] = ff_wall_between(corner[i], corner[i + 1]), walls[i] = &wall[i];
-    ff_body_limits room = {box, NULL, walls, 4, 0.3};
+    ff_body_limits room = {box, NULL, walls, 4, 0.3, false};
     for (int run = 0; run < 40; ++run) {
         ff_body body = {.heading = ff_random_range(&random, -3, 3), .rates = {1.7, 0.0, 0.0}};
         ff_vec2 command = ff_v2(0, 0);

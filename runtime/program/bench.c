@@ -1,0 +1,30 @@
+#include "runtime/program/bench.h"
+
+#include "runtime/core/base/file.h"
+#include "runtime/tool/command_line.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const ff_subcommand benches[] = {
+    {"table1", "collisions and smoothness of MCN, ORCA and SF in three crossing crowds (FbCrowd, Table 1)",
+     ff_bench_table1_main},
+    {0},
+};
+
+int ff_bench_main(int argc, char **argv)
+{
+    /* The words before the name of the bench are the program's. */
+    return ff_command_dispatch("footfall-crowd bench", "measure, and compare with others and with the paper",
+                               benches, argc + 1, argv - 1);
+}
+
+ff_status ff_bench_write_json(const char *path, json_t *value, ff_error *error)
+{
+    char *text = value ? json_dumps(value, JSON_INDENT(2) | JSON_REAL_PRECISION(8)) : NULL;
+    json_decref(value);
+    if (!text) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %s", path);
+    ff_status status = ff_file_write_atomic(path, text, strlen(text), error);
+    free(text);
+    return status;
+}

@@ -1,0 +1,17 @@
+/* bench.h - `footfall-crowd bench NAME`: measurements, printed as a table and written as CSV, JSON and a picture. */
+#ifndef FF_BENCH_H
+#define FF_BENCH_H
+
+#include "runtime/core/base/fail.h"
+
+#include <jansson.h>
+
+/* argv starts after the word "bench". Returns the exit status; so do the benches, which start after their names. */
+int ff_bench_main(int argc, char **argv);
+int ff_bench_table1_main(int argc, char **argv);
+int ff_bench_fig7_main(int argc, char **argv);
+
+/* Write value to path and give it back to jansson; NULL means that memory ran out. */
+ff_status ff_bench_write_json(const char *path, json_t *value, ff_error *error);
+
+#endif
