@@ -161,14 +161,17 @@ static ff_status sample(const ff_gltf_skeleton *s, ff_gltf_motion *motion, doubl
 
 /* Keys are floats: a bone whose length differs by less than this share of the body's size does not change. */
 #define STILL 1e-6
+/* One that is longer or shorter than at rest by more than this share is kept as a track: the rest pose stays what it is. */
+#define AS_AT_REST 2e-3
 
-static bool stays(const ff_clip *clip, int joint, double tolerance)
+static bool stays(const ff_clip *clip, int joint, double size)
 {
     size_t count = (size_t)clip->joint_count;
     ff_vec3 first = clip->positions[joint];
     for (size_t k = 1; k < (size_t)clip->frame_count; ++k)
-        if (ff_length3(ff_sub3(clip->positions[k * count + (size_t)joint], first)) > tolerance) return false;
-    return true;
+        if (ff_length3(ff_sub3(clip->positions[k * count + (size_t)joint], first)) > STILL * size)
+            return false;
+    return ff_length3(ff_sub3(first, clip->joints[joint].offset)) <= AS_AT_REST * size;
 }
 
 static double size_of_body(const ff_clip *clip)
@@ -181,12 +184,12 @@ static double size_of_body(const ff_clip *clip)
 
 static void drop_still_tracks(ff_clip *clip)
 {
-    double tolerance = STILL * size_of_body(clip);
+    double size = size_of_body(clip);
     size_t joints = (size_t)clip->joint_count, kept = 0;
     int tracks = 0;
     for (int j = 0; j < clip->joint_count; ++j) {
         ff_joint *joint = &clip->joints[j];
-        if (joint->parent >= 0 && stays(clip, j, tolerance)) {
+        if (joint->parent >= 0 && stays(clip, j, size)) {
             joint->track = -1;
             joint->offset = clip->positions[j];
         } else {

@@ -89,10 +89,10 @@ static ff_status add_vertices(reader *r, const attributes *a, int skin_index)
     ff_skin_vertex *v = ff_array_grow(&r->vertices, a->count, sizeof *v);
     if (!v) return ff_fail(r->error, FF_ERR_NO_MEMORY, "no memory for %zu vertices", a->count);
     for (size_t i = 0; i < a->count; ++i, ++v) {
-        const double *p = a->position + 3 * i, *n = a->normal + 3 * i;
+        const double *p = a->position + 3 * i, *n = a->normal ? a->normal + 3 * i : NULL;
         *v = (ff_skin_vertex){
             .at = ff_scale3(ff_quat_rotate(s->bind_turn, ff_v3(p[0], p[1], p[2])), s->bind_scale)};
-        if (a->normal) v->normal = ff_unit3(ff_quat_rotate(s->bind_turn, ff_v3(n[0], n[1], n[2])));
+        if (n) v->normal = ff_unit3(ff_quat_rotate(s->bind_turn, ff_v3(n[0], n[1], n[2])));
         if (a->uv) memcpy(v->uv, a->uv + 2 * i, sizeof v->uv);
         for (int b = 0; b < FF_SKIN_BONES; ++b) {
             double index = a->joints[4 * i + (size_t)b];
@@ -110,6 +110,7 @@ static ff_status add_vertices(reader *r, const attributes *a, int skin_index)
 static ff_status add_triangles(reader *r, const ff_gltf_primitive *p, const attributes *a, size_t first)
 {
     size_t corners = p->indices >= 0 ? r->gltf->accessors[p->indices].count : a->count, count = corners / 3;
+    if (count == 0) return FF_OK;
     if (count + r->triangles.count > MOST_TRIANGLES)
         return ff_fail(r->error, FF_ERR_RANGE, "meshes: more than %d triangles", MOST_TRIANGLES);
     uint32_t(*to)[3] = ff_array_grow(&r->triangles, count, sizeof *to);

@@ -1,6 +1,8 @@
 #include "preprocess/clean_finish.h"
 
 #define FADE (10.0 / 120.0)       /* s */
+#define FOOT_UNDER 0.007          /* m, how far a heel or ball may be under its height on the ground ... */
+#define TOE_UNDER 0.006           /* ... and a toe tip */
 #define HEEL_MOST (20.0 * FF_DEG) /* by which a heel may rise where the leg is too short */
 #define KNEE_LEAST (0.6 * FF_DEG)
 
@@ -94,10 +96,12 @@ static correction find_correction(const ff_rig *rig, const ff_clean_pose *pose, 
     ff_vec3 heel, ball, to_ball = rig->offset[ff_leg_role(pin->foot, FF_LEG_BALL)];
     ff_vec3 to_heel = rig->offset[pin->foot == FF_LEFT ? FF_BODY_HEEL_L : FF_BODY_HEEL_R];
     ff_clean_plant_places(rig, plant, &heel, &ball);
-    ff_vec3 along = ff_quat_rotate(leg.foot, ff_unit3(ff_sub3(to_ball, to_heel)));
-    ff_quat turn = ff_quat_between(along, ff_unit3(ff_sub3(ball, heel)));
-    ff_quat foot =
-        raise_heel(leg.hip, longest_reach(rig, pin->foot), ball, to_ball, ff_quat_mul(turn, leg.foot));
+    ff_quat foot = leg.foot;
+    if (!pin->heel_free) {
+        ff_vec3 along = ff_quat_rotate(foot, ff_unit3(ff_sub3(to_ball, to_heel)));
+        foot = ff_quat_mul(ff_quat_between(along, ff_unit3(ff_sub3(ball, heel))), foot);
+    }
+    foot = raise_heel(leg.hip, longest_reach(rig, pin->foot), ball, to_ball, foot);
     ff_vec3 ankle = ff_sub3(ball, ff_quat_rotate(foot, to_ball));
     return (correction){ff_sub3(ankle, leg.ankle), ff_quat_log(ff_quat_mul(foot, ff_quat_conj(leg.foot)))};
 }
@@ -139,6 +143,59 @@ static void fade_out(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *
     }
 }
 
+/* ------------------------------------------------------------------------------------------------ out of the ground */
+
+/* Turn about a unit axis, the smallest, that brings the tip of a lever to a height over the axis: y(t) = still + R cos(t -
+ * phase). */
+static double lifting_turn(ff_vec3 lever, ff_vec3 axis, double height)
+{
+    double still = axis.y * ff_dot3(axis, lever), sine = ff_cross3(axis, lever).y, cosine = lever.y - still;
+    double reach = sqrt(sine * sine + cosine * cosine);
+    if (reach < 1e-9) return 0.0;
+    double phase = ff_atan2(sine, cosine), away = ff_acos((height - still) / reach);
+    double forth = ff_wrap(phase + away), back = ff_wrap(phase - away);
+    return fabs(forth) < fabs(back) ? forth : back;
+}
+
+/* Raise a heel over its ball, a whole foot by its leg, and toes by their joint, until nothing is far under the ground. */
+static void lift_foot(const ff_rig *rig, ff_clean_pose *pose, int side, double ground)
+{
+    const double zero[FF_CLEAN_LEG] = {0};
+    const ff_vec3 x = {1.0, 0.0, 0.0};
+    ff_vec3 places[FF_FOOT_PLACES], to_ball = rig->offset[ff_leg_role(side, FF_LEG_BALL)];
+    ff_clean_foot(rig, pose, side, zero, zero, places, NULL);
+    double heel = ground - FOOT_UNDER - places[FF_FOOT_AT_HEEL].y;
+    double ball = ground - FOOT_UNDER - places[FF_FOOT_AT_BALL].y;
+    if (heel > 0.0 || ball > 0.0) {
+        leg_now leg = leg_of(rig, pose, side);
+        ff_vec3 axis = ff_quat_rotate(leg.foot, x), middle = places[FF_FOOT_AT_BALL];
+        if (ball > 0.0) middle.y += ball;
+        ff_vec3 lever = ff_sub3(places[FF_FOOT_AT_HEEL], places[FF_FOOT_AT_BALL]);
+        double least = ground - FOOT_UNDER - middle.y;
+        if (lever.y < least)
+            leg.foot = ff_quat_mul(ff_quat_axis(axis, lifting_turn(lever, axis, least)), leg.foot);
+        ff_clean_reach(rig, pose, side, ff_sub3(middle, ff_quat_rotate(leg.foot, to_ball)), leg.foot);
+        ff_clean_foot(rig, pose, side, zero, zero, places, NULL);
+    }
+    double least = ground - TOE_UNDER - places[FF_FOOT_AT_BALL].y;
+    ff_vec3 toes = ff_sub3(places[FF_FOOT_AT_TOE], places[FF_FOOT_AT_BALL]);
+    if (toes.y >= least) return;
+    leg_now leg = leg_of(rig, pose, side);
+    double turn = lifting_turn(toes, ff_quat_rotate(leg.foot, x), least);
+    pose->legs[side][FF_LEG_BALL] = ff_quat_mul(pose->legs[side][FF_LEG_BALL], ff_quat_axis(x, turn));
+}
+
+static void lift_feet(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins)
+{
+    for (int frame = 0; frame < motion->frame_count; ++frame) {
+        ff_clean_pose pose;
+        ff_clean_pose_read(motion, frame, &pose);
+        for (int side = 0; side < 2; ++side)
+            lift_foot(rig, &pose, side, ff_clean_ground(pins, side, frame));
+        ff_clean_pose_write(&pose, motion, frame);
+    }
+}
+
 void ff_clean_finish(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins)
 {
     for (int i = 0; i < pins->count; ++i) {
@@ -155,4 +212,5 @@ void ff_clean_finish(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *
         fade_out(rig, motion, pins, i, -1, &at_first);
         fade_out(rig, motion, pins, i, 1, &at_last);
     }
+    lift_feet(rig, motion, pins);
 }

@@ -36,13 +36,11 @@ static void put_knot(const ff_motion *motion, const ff_clean_pins *pins, int fra
 {
     ff_clean_knot *knot = &k->problem.knots[index];
     const double zero[FF_CLEAN_LEG] = {0};
-    ff_vec3 rest[FF_BODY_COUNT];
-    ff_rig_rest_pose(k->problem.rig, rest);
     ff_clean_pose_read(motion, frame, &knot->pose);
     for (int side = 0; side < 2; ++side) {
         ff_vec3 places[FF_FOOT_PLACES];
         knot->plant[side] = -1;
-        knot->ground[side] = rest[FF_ROLE_BALL_L].y;
+        knot->ground[side] = ff_clean_ground(pins, side, frame);
         ff_clean_foot(k->problem.rig, &knot->pose, side, zero, zero, places, NULL);
         for (int p = 0; p < FF_FOOT_PLACES; ++p)
             knot->near_ground[side] |= places[p].y < knot->ground[side] + NEAR_GROUND;

@@ -69,7 +69,7 @@ static ff_status measure_pins(const ff_rig *rig, const ff_motion *motion, const 
     pin_sums sums = {.off = ff_calloc((size_t)frames + 1, sizeof *sums.off)};
     bool enough = scratch && sums.off;
     for (int i = 0; enough && i < pins->count; ++i)
-        measure_pin(rig, motion, &pins->items[i], &pins->plants[i], scratch, &sums);
+        if (pins->items[i].flat) measure_pin(rig, motion, &pins->items[i], &pins->plants[i], scratch, &sums);
     if (enough) {
         *median = sums.count > 0 ? ff_filter_quantile(sums.off, sums.count, 0.5) : 0.0;
         *worst = sums.worst;
@@ -82,18 +82,20 @@ static ff_status measure_pins(const ff_rig *rig, const ff_motion *motion, const 
 
 /* ------------------------------------------------------------------------------------------------ floor and knees */
 
-static void measure_floor(const ff_rig *rig, const ff_motion *motion, double *dip, double *knee)
+static void measure_floor(const ff_rig *rig, const ff_motion *motion, const ff_clean_pins *pins, double *dip,
+                          double *knee)
 {
     static const int soles[] = {FF_BODY_HEEL_L, FF_ROLE_BALL_L, FF_ROLE_TOE_L,
                                 FF_BODY_HEEL_R, FF_ROLE_BALL_R, FF_ROLE_TOE_R};
-    ff_vec3 rest[FF_BODY_COUNT], at[FF_BODY_COUNT];
-    ff_rig_rest_pose(rig, rest);
+    enum { POINTS = sizeof soles / sizeof soles[0] };
+    ff_vec3 at[FF_BODY_COUNT];
     *dip = 0.0;
     *knee = FF_PI;
     for (int k = 0; k < motion->frame_count; ++k) {
         ff_motion_pose(rig, motion, k, at, NULL);
-        for (size_t p = 0; p < sizeof soles / sizeof soles[0]; ++p)
-            *dip = ff_max(*dip, rest[soles[p]].y - at[soles[p]].y);
+        double ground[2] = {ff_clean_ground(pins, FF_LEFT, k), ff_clean_ground(pins, FF_RIGHT, k)};
+        for (int p = 0; p < POINTS; ++p)
+            *dip = ff_max(*dip, ground[2 * p / POINTS] - at[soles[p]].y);
         const ff_quat *local = motion->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
         *knee = ff_min(*knee, ff_knee_flexion(local[FF_ROLE_KNEE_L]));
         *knee = ff_min(*knee, ff_knee_flexion(local[FF_ROLE_KNEE_R]));
@@ -191,8 +193,8 @@ ff_status ff_clean_measure(const ff_rig *rig, const ff_motion *before, const ff_
     if (status == FF_OK)
         status = measure_pins(rig, after, &pins, &r->pin_median.after, &r->pin_worst.after, &r->skate.after,
                               error);
-    measure_floor(rig, before, &r->floor_dip.before, &r->knee_least.before);
-    measure_floor(rig, after, &r->floor_dip.after, &r->knee_least.after);
+    measure_floor(rig, before, &pins, &r->floor_dip.before, &r->knee_least.before);
+    measure_floor(rig, after, &pins, &r->floor_dip.after, &r->knee_least.after);
     r->acceleration = 1.0;
     if (status == FF_OK && before != after) status = measure_turns(before, after, r, error);
     if (status == FF_OK && before != after)

@@ -7,6 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* m: a foot found flat whose heel is so much over its ball stands on the ball; so much under it, is broken capture. */
+#define HEEL_UP 0.02
+#define HEEL_DOWN 0.04
+/* A ball that is slower (m/s) and lower (m) for a while (s) stands. */
+#define STILL 0.4
+#define STILL_HEIGHT 0.02
+#define STILL_LEAST 0.03
 #define RAMP (4.0 / 120.0) /* s, in which a pin comes and goes */
 #define ROLL_OFF 0.3       /* share of the roll over the ball in which the ball stays pinned */
 
@@ -38,40 +45,122 @@ void ff_clean_pin_weights(const ff_clean_pin *pin, int frame, double frame_time,
         *heel = ff_smooth(1.0 - after / ramp);
         *ball = ff_smooth(1.0 - after / roll);
     }
+    if (pin->heel_free) *heel = 0.0;
 }
 
-static ff_clean_plant place(const ff_rig *rig, const ff_motion *motion, const ff_plant *plant)
+/* ------------------------------------------------------------------------------------------------- finding them */
+
+/* Mean places of heel and ball, in the motion, over frames first to last. */
+static void mean_places(const ff_rig *rig, const ff_motion *motion, int foot, int first, int last,
+                        ff_vec3 *heel, ff_vec3 *ball)
 {
-    ff_vec3 rest[FF_BODY_COUNT];
-    ff_rig_rest_pose(rig, rest);
-    ff_clean_plant out = {.heel_height = rest[FF_BODY_HEEL_L].y, .ball_height = rest[FF_ROLE_BALL_L].y};
-    ff_vec3 ball = ff_ground(ff_scale2(plant->ball, motion->scale), 0.0);
-    out.tied[0] = ball.x;
-    out.tied[1] = ball.z;
-    out.tied[2] = plant->yaw;
-    memcpy(out.at, out.tied, sizeof out.at);
-    return out;
+    *heel = *ball = ff_v3(0.0, 0.0, 0.0);
+    double share = 1.0 / (last - first + 1);
+    for (int k = first; k <= last; ++k) {
+        ff_vec3 at[FF_BODY_COUNT];
+        ff_motion_pose(rig, motion, k, at, NULL);
+        *heel = ff_madd3(*heel, at[foot == FF_LEFT ? FF_BODY_HEEL_L : FF_BODY_HEEL_R], share);
+        *ball = ff_madd3(*ball, at[ff_leg_role(foot, FF_LEG_BALL)], share);
+    }
+}
+
+/* Longest stretch of a plant in which the ball is low and slow; false when there is none worth pinning. */
+static bool still_ball(const ff_plants *plants, const ff_plant *plant, double frame_time, ff_clean_pin *pin)
+{
+    int from = -1;
+    pin->first = 0;
+    pin->last = -1;
+    for (int k = plant->start; k <= plant->end + 1 && k < plants->frame_count; ++k) {
+        const ff_foot_track *track = &plants->tracks[2 * k + plant->foot];
+        bool still = k <= plant->end && track->ball_speed < STILL && track->ball_height < STILL_HEIGHT;
+        if (still && from < 0) from = k;
+        if (still && k - from > pin->last - pin->first) {
+            pin->first = from;
+            pin->last = k;
+        }
+        if (!still) from = -1;
+    }
+    return (pin->last - pin->first) * frame_time >= STILL_LEAST;
+}
+
+/* Captured place of the ball on the rig. Of a foot that is never flat the plant knows only where it was on the whole:
+ * the motion says where the still stretch is from there. */
+static ff_vec2 captured_place(const ff_rig *rig, const ff_motion *motion, const ff_plant *plant,
+                              const ff_clean_pin *pin, ff_vec3 still)
+{
+    ff_vec2 place = ff_scale2(plant->ball, motion->scale);
+    if (pin->flat) return place;
+    ff_vec3 heel, ball;
+    int end = plant->end < motion->frame_count ? plant->end : motion->frame_count - 1;
+    mean_places(rig, motion, plant->foot, plant->start, end, &heel, &ball);
+    return ff_add2(place, ff_plane(ff_sub3(still, ball)));
+}
+
+static void add_pin(const ff_rig *rig, const ff_motion *motion, const ff_plant *plant, ff_clean_pin pin,
+                    ff_clean_pins *pins)
+{
+    ff_vec3 heel, ball;
+    if (pin.last >= motion->frame_count) pin.last = motion->frame_count - 1;
+    mean_places(rig, motion, pin.foot, pin.first, pin.last, &heel, &ball);
+    double rise = heel.y - ball.y;
+    pin.heel_free = !pin.flat || rise > HEEL_UP || rise < -HEEL_DOWN;
+    ff_vec2 at = captured_place(rig, motion, plant, &pin, ball);
+    ff_clean_plant place = {.tied = {at.b, at.a, plant->yaw},
+                            .heel_height = pins->uneven ? heel.y : pins->rest,
+                            .ball_height = pins->uneven ? ball.y : pins->rest};
+    memcpy(place.at, place.tied, sizeof place.at);
+    pins->plants[pins->count] = place;
+    pins->items[pins->count++] = pin;
+}
+
+static bool is_uneven(const ff_plants *plants)
+{
+    for (int i = 0; i < plants->count; ++i)
+        if (fabs(plants->items[i].level) > 0.0) return true;
+    return false;
 }
 
 ff_status ff_clean_pins_find(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
                              ff_clean_pins *out, ff_error *error)
 {
     size_t n = (size_t)plants->count;
+    ff_vec3 rest[FF_BODY_COUNT];
+    ff_rig_rest_pose(rig, rest);
     *out = (ff_clean_pins){.items = ff_calloc(n, sizeof *out->items),
-                           .plants = ff_calloc(n, sizeof *out->plants)};
+                           .plants = ff_calloc(n, sizeof *out->plants),
+                           .rest = rest[FF_ROLE_BALL_L].y,
+                           .uneven = is_uneven(plants)};
     if (!out->items || !out->plants) {
         ff_clean_pins_free(out);
         return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %d pinned feet", plants->count);
     }
     for (int i = 0; i < plants->count; ++i) {
         const ff_plant *plant = &plants->items[i];
-        if (plant->flat_start < 0) continue;
-        out->items[out->count] = (ff_clean_pin){.foot = plant->foot,
-                                                .start = plant->start,
-                                                .first = plant->flat_start,
-                                                .last = plant->flat_end,
-                                                .end = plant->end};
-        out->plants[out->count++] = place(rig, motion, plant);
+        ff_clean_pin pin = {.foot = plant->foot,
+                            .start = plant->start,
+                            .first = plant->flat_start,
+                            .last = plant->flat_end,
+                            .end = plant->end,
+                            .flat = plant->flat_start >= 0};
+        if (pin.flat || still_ball(plants, plant, motion->frame_time, &pin))
+            add_pin(rig, motion, plant, pin, out);
     }
     return FF_OK;
+}
+
+double ff_clean_ground(const ff_clean_pins *pins, int foot, int frame)
+{
+    if (!pins->uneven) return pins->rest;
+    /* between two plants of a foot the lower one's: nothing is known of the ground there */
+    int before = -1, after = -1;
+    for (int i = 0; i < pins->count; ++i) {
+        if (pins->items[i].foot != foot) continue;
+        if (pins->items[i].first <= frame) before = i;
+        if (pins->items[i].last >= frame && after < 0) after = i;
+    }
+    if (before < 0) before = after;
+    if (after < 0) after = before;
+    if (before < 0) return pins->rest;
+    const ff_clean_plant *p = &pins->plants[before], *q = &pins->plants[after];
+    return ff_min(ff_min(p->ball_height, p->heel_height), ff_min(q->ball_height, q->heel_height));
 }

@@ -119,6 +119,7 @@ static void write_clip(ff_text *page, const ff_pack *pack, uint32_t index, const
     const json_t *entry = json_array_get(json_object_get(meta, "clips"), index);
     ff_report_timeline(page, pack, clip, json_object_get(entry, "rejected"));
     write_breaks(page, json_object_get(entry, "broken"));
+    ff_report_clean(page, json_object_get(entry, "clean"));
     ff_report_steps(page, pack, clip);
 }
 

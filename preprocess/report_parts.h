@@ -27,6 +27,9 @@ void ff_report_timeline(ff_text *page, const ff_pack *pack, const ff_pack_clip *
 /* One card per action of the clip: the body from the side at five moments, and the annotation. */
 void ff_report_steps(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip);
 
+/* What the clean-up of a clip's feet did. clean: the clip's object in META, or NULL. */
+void ff_report_clean(ff_text *page, const json_t *clean);
+
 /* Examples and their hull in the plane of velocities (FbCrowd, figure 3). */
 void ff_report_hull(ff_text *page, const ff_pack *pack);
 
