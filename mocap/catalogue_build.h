@@ -29,6 +29,10 @@ bool ff_is_clip_path(const char *path); /* ends in .amc, .bvh, .gltf or .glb */
 /* Add an entry, or, for a glTF file (whose name no #ANIMATION follows), one for each of its animations that moves. */
 ff_status ff_catalogue_add_clips(ff_catalogue_builder *builder, ff_catalogue_entry entry, ff_error *error);
 
+/* Add what the text of a catalogue file lists; path: of the file. */
+ff_status ff_catalogue_add_text(ff_catalogue_builder *builder, const char *text, size_t size,
+                                const char *path, const char *folder, ff_error *error);
+
 /* Add what a catalogue file lists; its files are below folder when that is not NULL. */
 ff_status ff_catalogue_add_json(ff_catalogue_builder *builder, const char *path, const char *folder,
                                 ff_error *error);

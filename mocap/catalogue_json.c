@@ -1,6 +1,7 @@
 /* A catalogue file. Every key is described in mocap/README.md; anything else is an error with its line. */
 #define _POSIX_C_SOURCE 200809L
 #include "mocap/catalogue_build.h"
+#include "runtime/core/base/file.h"
 #include "runtime/tool/json.h"
 
 #include <limits.h>
@@ -258,13 +259,24 @@ static ff_status read_root(reader *r, const char *path, const char *folder)
     return status;
 }
 
-ff_status ff_catalogue_add_json(ff_catalogue_builder *builder, const char *path, const char *folder,
-                                ff_error *error)
+ff_status ff_catalogue_add_text(ff_catalogue_builder *builder, const char *text, size_t size,
+                                const char *path, const char *folder, ff_error *error)
 {
     reader r = {.builder = builder, .error = error};
-    ff_status status = ff_json_load(path, &r.json, error);
+    ff_status status = ff_json_parse(text, size, path, &r.json, error);
     if (status != FF_OK) return status;
     status = read_root(&r, path, folder);
     ff_json_free(&r.json);
+    return status;
+}
+
+ff_status ff_catalogue_add_json(ff_catalogue_builder *builder, const char *path, const char *folder,
+                                ff_error *error)
+{
+    ff_file file;
+    ff_status status = ff_file_map(path, &file, error);
+    if (status != FF_OK) return status;
+    status = ff_catalogue_add_text(builder, file.data, file.size, path, folder, error);
+    ff_file_unmap(&file);
     return status;
 }

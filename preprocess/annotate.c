@@ -24,6 +24,7 @@ int ff_plant_full(const ff_plants *plants, int plant)
     const ff_plant *p = &plants->items[plant];
     const ff_foot_track *tracks = plants->tracks + p->foot;
     int down = p->start, slowest = down;
+    if (p->written && p->flat_start >= 0) return p->flat_start;
     while (down <= p->end && !is_down(&tracks[2 * down], p->flat_start < 0))
         ++down;
     for (int i = p->start; i <= p->end; ++i)

@@ -4,11 +4,14 @@
 #include "mocap/generator/generator.h"
 #include "preprocess/carry.h"
 #include "preprocess/code_version.h"
+#include "preprocess/plant_edit.h"
 #include "runtime/core/base/fail.h"
+#include "runtime/core/base/file.h"
 #include "runtime/core/base/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <xxhash.h>
 
@@ -131,12 +134,26 @@ static uint64_t hash_entry(const ff_catalogue_entry *entry, uint64_t seed)
     return seed;
 }
 
+/* What a person wrote beside the clip is part of it. */
+static ff_status hash_override(const ff_catalogue_entry *entry, uint64_t *all, ff_error *error)
+{
+    char path[1024];
+    ff_file file;
+    if (!ff_plant_edits_path(entry->path, path, sizeof path) || access(path, F_OK) != 0) return FF_OK;
+    ff_status status = ff_file_map(path, &file, error);
+    if (status != FF_OK) return status;
+    *all = XXH64(file.data, file.size, *all + 1);
+    ff_file_unmap(&file);
+    return FF_OK;
+}
+
 static ff_status make_find_key(ff_build_clip *clip, const ff_build_shared *shared)
 {
     uint64_t all = 0, key = hash_text(ff_code_version(), 0);
     if (clip->entry) {
         ff_status status =
             ff_clip_hash(clip->entry->path, &clip->entry->options, &clip->hash, &all, &clip->error);
+        if (status == FF_OK) status = hash_override(clip->entry, &all, &clip->error);
         if (status != FF_OK) return status;
         key = hash_entry(clip->entry, key);
     } else {
@@ -156,6 +173,20 @@ static void make_cut_key(ff_build_clip *clip, const ff_build_shared *shared)
 
 /* ----------------------------------------------------------------------------------------------------- stage 1 */
 
+/* Found, then what a person wrote beside the clip; frames in that file are the clip file's. */
+static ff_status find_plants(ff_build_clip *clip)
+{
+    ff_plant_edits edits;
+    bool written = false;
+    if (!clip->entry) return ff_plants_find(&clip->clip, &clip->plants, &clip->error);
+    ff_status status = ff_plant_edits_load(clip->entry->path, &edits, &written, &clip->error);
+    if (status != FF_OK) return status;
+    ff_plant_edits_trim(&edits, clip->first_frame, clip->clip.frame_count);
+    status = ff_plants_find_edited(&clip->clip, written ? &edits : NULL, &clip->plants, &clip->error);
+    ff_plant_edits_free(&edits);
+    return status;
+}
+
 static ff_status find(ff_build_clip *clip)
 {
     ff_status status = read_frames(clip, &clip->clip, &clip->repaired, &clip->error);
@@ -165,7 +196,7 @@ static ff_status find(ff_build_clip *clip)
         clip->hash = XXH64(clip->clip.rotations, poses * sizeof *clip->clip.rotations, 0);
     }
     clip->frames = clip->clip.frame_count;
-    status = ff_plants_find(&clip->clip, &clip->plants, &clip->error);
+    status = find_plants(clip);
     keep_last_frame(&clip->clip);
     return status;
 }

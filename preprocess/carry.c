@@ -6,12 +6,12 @@
 /* Who adds a member to one of these structs: a plain one is carried with the struct; what a pointer leads to must be
  * added to the function below. Then write the new size here. */
 _Static_assert(sizeof(ff_clip) == 344, "carry_clip: is everything of ff_clip carried?");
-_Static_assert(sizeof(ff_plants) == 224, "carry_plants: is everything of ff_plants carried?");
+_Static_assert(sizeof(ff_plants) == 240, "carry_plants: is everything of ff_plants carried?");
 _Static_assert(sizeof(ff_motion) == 48, "carry_motion: is everything of ff_motion carried?");
 _Static_assert(sizeof(ff_actions) == 32, "carry_actions: is everything of ff_actions carried?");
 _Static_assert(sizeof(ff_cycles) == 16, "carry_cycles: is everything of ff_cycles carried?");
 _Static_assert(sizeof(ff_example) == 240, "carry_cycles: is everything of ff_example carried?");
-_Static_assert(sizeof(ff_build_clip) == 1640, "is everything the stages find carried?");
+_Static_assert(sizeof(ff_build_clip) == 1656, "is everything the stages find carried?");
 
 /* Bytes on their way: to out, or, when that is NULL, from in. */
 typedef struct carrier {
@@ -93,11 +93,12 @@ static void carry_breaks(carrier *c, ff_breaks *breaks)
 static void carry_plants(carrier *c, ff_plants *plants)
 {
     ff_plants head = *plants;
-    head.items = NULL;
+    head.items = head.found = NULL;
     head.tracks = NULL;
     head.breaks.items = NULL;
     CARRY_HEAD(c, plants, head);
     carry_list(c, &plants->items, head.count, sizeof *plants->items);
+    carry_list(c, &plants->found, head.found_count, sizeof *plants->found);
     carry_list(c, &plants->tracks, 2 * (int64_t)head.frame_count, sizeof *plants->tracks);
     carry_breaks(c, &plants->breaks);
 }

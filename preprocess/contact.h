@@ -25,7 +25,7 @@ int ff_contacts_keep_low(const ff_foot_signals *signals, double tolerance, ff_co
 void ff_contact_refine(const ff_foot_signals *signals, int previous_last, int next_first, double running,
                        ff_contact *contact);
 
-/* The flat stretch alone, by the levels that refining found. */
+/* The levels and the flat stretch alone. */
 void ff_contact_find_flat(const ff_foot_signals *signals, double running, ff_contact *contact);
 
 #endif

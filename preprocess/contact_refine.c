@@ -243,6 +243,7 @@ void ff_contact_find_flat(const ff_foot_signals *s, double running, ff_contact *
 {
     double ball = ff_lerp(0.30, 0.6, running), heel = ff_lerp(0.35, 0.7, running);
     int begin = -1;
+    find_levels(s, c);
     c->flat_first = c->flat_last = -1;
     for (int i = c->first; i <= c->last + 1; ++i) {
         bool flat = i <= c->last && s->speed[FF_FOOT_BALL][i] < ball && s->speed[FF_FOOT_HEEL][i] < heel &&
@@ -265,6 +266,5 @@ void ff_contact_refine(const ff_foot_signals *s, int previous_last, int next_fir
     find_levels(s, c);
     find_start(s, previous_last, running, c);
     find_end(s, next_first, running, c);
-    find_levels(s, c);
     ff_contact_find_flat(s, running, c);
 }

@@ -1,5 +1,6 @@
 #include "preprocess/each_clip.h"
 
+#include "preprocess/plant_edit.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/tool/command_line.h"
 #include "runtime/tool/progress.h"
@@ -14,7 +15,13 @@ static ff_status see(const ff_catalogue_entry *entry, ff_clip_visit visit, void 
     ff_status status = ff_clip_load(entry->path, &entry->options, &seen.clip, error);
     if (status != FF_OK) return status;
     status = ff_breaks_repair(&seen.clip, &seen.breaks, error);
-    if (status == FF_OK) status = ff_plants_find(&seen.clip, &seen.plants, error);
+    ff_plant_edits edits;
+    bool written = false;
+    memset(&edits, 0, sizeof edits);
+    if (status == FF_OK) status = ff_plant_edits_load(entry->path, &edits, &written, error);
+    if (status == FF_OK)
+        status = ff_plants_find_edited(&seen.clip, written ? &edits : NULL, &seen.plants, error);
+    ff_plant_edits_free(&edits);
     if (status == FF_OK) status = visit(&seen, context, error);
     if (status != FF_OK) ff_error_in_file(error, entry->path);
     ff_plants_free(&seen.plants);

@@ -5,7 +5,8 @@
 #include "mocap/catalogue.h"
 #include "preprocess/plants.h"
 
-/* One clip, read, single broken frames put back (breaks: all that was broken), plants found. */
+/* One clip, read, single broken frames put back (breaks: all that was broken), plants found, or written by a person beside
+ * the clip. */
 typedef struct ff_seen_clip {
     const ff_catalogue_entry *entry;
     ff_clip clip;

@@ -59,6 +59,21 @@ static json_t *clean_entry(const ff_clean_report *r)
                      "residual_mm", mm * r->residual, "solves", r->solves, "unconverged", r->unconverged);
 }
 
+/* What was found where a person's word holds instead. */
+static json_t *found_plants(const ff_build_clip *clip)
+{
+    json_t *list = json_array();
+    double dt = clip->motion.frame_time;
+    for (int i = 0; i < clip->plants.found_count; ++i) {
+        const ff_plant *p = &clip->plants.found[i];
+        json_array_append_new(list,
+                              json_pack("{s:s, s:f, s:f}", "foot", p->foot == FF_LEFT ? "left" : "right",
+                                        "from", (p->start + clip->first_frame) * dt, "to",
+                                        (p->end + 1 + clip->first_frame) * dt));
+    }
+    return list;
+}
+
 static json_t *clip_entry(const ff_build_clip *clip, const ff_build_settings *settings)
 {
     char hash[20];
@@ -69,6 +84,7 @@ static json_t *clip_entry(const ff_build_clip *clip, const ff_build_settings *se
                   clip->citation, "tags", clip->tags, "mode", clip->mode, "first_frame", clip->first_frame,
                   "mirror", clip->mirror ? 1 : 0, "subject", clip->subject, "unit_m", clip->clip.unit_m,
                   "frames", clip->frames, "rejected", rejections_of(clip));
+    if (entry && clip->plants.found_count > 0) json_object_set_new(entry, "found", found_plants(clip));
     if (entry && clip->repaired.count > 0) json_object_set_new(entry, "broken", breaks_of(clip));
     if (entry && settings->pack.motion.clean)
         json_object_set_new(entry, "clean", clean_entry(&clip->cleaned));

@@ -3,6 +3,7 @@
 #include "preprocess/contact.h"
 #include "preprocess/filter.h"
 #include "preprocess/floor.h"
+#include "preprocess/plant_edit.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 
@@ -317,6 +318,56 @@ static ff_status collect(search *s, ff_plants *out, ff_error *error)
     return FF_OK;
 }
 
+static int working_frame(const search *s, int frame)
+{
+    int i = (frame - s->clip->rest_frames) * s->feet[0].factor, last = s->feet[0].count - 1;
+    return i < 0 ? 0 : (i > last ? last : i);
+}
+
+/* Where a plant that a person wrote is, and when it is flat if that is not written. */
+static void describe_written(search *s, ff_plant *p)
+{
+    const ff_foot_signals *f = &s->feet[p->foot];
+    ff_contact c = {.first = working_frame(s, p->start), .last = working_frame(s, p->end)};
+    ff_contact_find_flat(f, running_share(s, &c), &c);
+    if (p->flat_start != FF_EDIT_LEAVE) {
+        c.flat_first = p->flat_start >= 0 ? working_frame(s, p->flat_start) : -1;
+        c.flat_last = p->flat_start >= 0 ? working_frame(s, p->flat_end) : -1;
+    } else {
+        p->flat_start = c.flat_first >= 0 ? frame_up(s, c.flat_first) : -1;
+        p->flat_end = c.flat_first >= 0 ? frame_up(s, c.flat_last) : -1;
+    }
+    place(f, &c, p, s->scratch);
+}
+
+/* A person's word: what was found is kept beside it. */
+static ff_status let_edit(search *s, const ff_plant_edits *edits, ff_plants *out, ff_error *error)
+{
+    ff_plant *items = ff_calloc((size_t)(out->count + edits->count) + 1, sizeof *items);
+    if (!items)
+        return ff_fail(error, FF_ERR_NO_MEMORY, "%s: no memory for %d plants", s->clip->name, out->count);
+    int total = 0;
+    ff_status status = FF_OK;
+    for (int foot = 0; foot < 2 && status == FF_OK; ++foot) {
+        int count = 0;
+        status = ff_plant_edits_apply(edits, foot, s->clip->frame_count, out->items, out->count,
+                                      items + total, &count, error);
+        total += count;
+    }
+    for (int i = 0; i < total && status == FF_OK; ++i)
+        if (items[i].written) describe_written(s, &items[i]);
+    if (status != FF_OK) {
+        free(items);
+        return status;
+    }
+    out->found = out->items;
+    out->found_count = out->count;
+    out->items = items;
+    out->count = total;
+    qsort(out->items, (size_t)out->count, sizeof *out->items, by_start);
+    return FF_OK;
+}
+
 static void describe_floor(const search *s, ff_plants *out)
 {
     double ball = BALL_OVER_SOLE * s->leg;
@@ -335,6 +386,12 @@ static void describe_floor(const search *s, ff_plants *out)
 }
 
 ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error)
+{
+    return ff_plants_find_edited(clip, NULL, out, error);
+}
+
+ff_status ff_plants_find_edited(const ff_clip *clip, const ff_plant_edits *edits, ff_plants *out,
+                                ff_error *error)
 {
     memset(out, 0, sizeof *out);
     search s;
@@ -355,6 +412,7 @@ ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error)
         cut_out_breaks(&s, &out->breaks);
         status = collect(&s, out, error);
     }
+    if (status == FF_OK && edits) status = let_edit(&s, edits, out, error);
     if (status == FF_OK)
         describe_floor(&s, out);
     else
@@ -366,6 +424,7 @@ ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error)
 void ff_plants_free(ff_plants *plants)
 {
     free(plants->items);
+    free(plants->found);
     free(plants->tracks);
     ff_breaks_free(&plants->breaks);
     memset(plants, 0, sizeof *plants);

@@ -54,12 +54,17 @@ typedef struct ff_plants {
     ff_foot_shape shape[2];
     ff_foot_track *tracks; /* [frame_count][2] */
     int frame_count;
+    ff_plant *found; /* what was found before a person's word changed it: NULL when nobody wrote anything */
+    int found_count;
     ff_breaks breaks; /* where the clip is broken: no plant goes across a jump or a frozen stretch */
 } ff_plants;
 
 /* Find the plants of a clip by height and velocity over a fitted floor plane (footstep planning, section 4;
  * algorithms A.5). Needs hips, knees and ankles of both sides. On failure *out is zeroed. */
 ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error);
+/* The same, then what a person wrote (plant_edit.h; NULL: nothing). Edits that do not fit fail with their line. */
+typedef struct ff_plant_edits ff_plant_edits;
+ff_status ff_plants_find_edited(const ff_clip *clip, const ff_plant_edits *edits, ff_plants *out, ff_error *error);
 void ff_plants_free(ff_plants *plants);
 
 #endif

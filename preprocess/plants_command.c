@@ -1,13 +1,19 @@
 #include "preprocess/plants_command.h"
 
 #include "preprocess/each_clip.h"
+#include "preprocess/plant_edit.h"
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/file.h"
 #include "runtime/tool/command_line.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 static const char *const PROGRAM = "footfall-pack";
 
-typedef enum plants_layout { TABLE, CSV } plants_layout;
+typedef enum plants_layout { TABLE, CSV, OVERRIDE } plants_layout;
 
 static void print_csv(const ff_clip *clip, const ff_plants *plants)
 {
@@ -43,10 +49,26 @@ static void print_table(const ff_clip *clip, const ff_plants *plants)
     }
 }
 
+/* A file for a person to go on from, beside the clip. */
+static ff_status write_override(const ff_seen_clip *seen, ff_error *error)
+{
+    char path[1024], *text;
+    if (!ff_plant_edits_path(seen->entry->path, path, sizeof path))
+        return ff_fail(error, FF_ERR_RANGE, "the name of the clip's file is too long");
+    if (access(path, F_OK) == 0)
+        return ff_fail(error, FF_ERR_IO, "%s is there already, and what is in it holds; move it away first",
+                       path);
+    ff_status status = ff_plant_edits_write(&seen->plants, &text, error);
+    if (status == FF_OK) status = ff_file_write_atomic(path, text, strlen(text), error);
+    if (status == FF_OK) printf("%s\n", path);
+    free(text);
+    return status;
+}
+
 static ff_status print_clip(const ff_seen_clip *seen, void *context, ff_error *error)
 {
     const plants_layout *layout = context;
-    (void)error;
+    if (*layout == OVERRIDE) return write_override(seen, error);
     if (*layout == CSV) {
         print_csv(&seen->clip, &seen->plants);
     } else {
@@ -58,9 +80,12 @@ static ff_status print_clip(const ff_seen_clip *seen, void *context, ff_error *e
 
 int ff_plants_command(int argc, char **argv)
 {
-    bool csv = false, quiet = false;
+    bool csv = false, override = false, quiet = false;
     ff_option options[] = {
         {.name = "--csv", .help = "one line per plant, with a header", .flag = &csv},
+        {.name = "--write-override",
+         .help = "write NAME.plants.json beside each clip, to be edited: what it says holds",
+         .flag = &override},
         {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &quiet},
         {0}};
     ff_command command = {
@@ -80,7 +105,7 @@ int ff_plants_command(int argc, char **argv)
     ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
     if (result >= 0) return result;
-    plants_layout layout = csv ? CSV : TABLE;
-    if (csv) printf("clip,foot,start_frame,end_frame,flat_start,flat_end,confidence\n");
+    plants_layout layout = override ? OVERRIDE : (csv ? CSV : TABLE);
+    if (layout == CSV) printf("clip,foot,start_frame,end_frame,flat_start,flat_end,confidence\n");
     return ff_each_clip(PROGRAM, "plants", operands.items, operands.count, quiet, print_clip, &layout);
 }

@@ -15,7 +15,8 @@ static const char *const style[] = {
     "svg{background:#fff;display:block}svg text{font:10px system-ui,sans-serif;fill:#666}svg "
     ".mid{text-anchor:middle;fill:#111}",
     "svg .side{font-weight:bold;fill:#222}.scroll{overflow-x:auto;border:1px solid #ddd}polyline{fill:none}",
-    ".plant{fill:#dbe7f3}.flat{fill:#b3cfe9}.axis{stroke:#bbb}.second,.grid{stroke:#e6e6e6;fill:none}",
+    ".plant{fill:#dbe7f3}.written{stroke:#7a2c7a;stroke-width:2}.found{fill:#999}.flat{fill:#b3cfe9}.axis{"
+    "stroke:#bbb}.second,.grid{stroke:#e6e6e6;fill:none}",
     ".p0{stroke:#c2571a}.p1{stroke:#2c7a3f}.p2{stroke:#2456b8}.rejected{fill:#f3d5d5;stroke:#c66}",
     ".row{display:flex;flex-wrap:wrap;gap:30px;align-items:flex-start}",
     ".cards{display:flex;flex-wrap:wrap;gap:8px;margin-top:8px}",
@@ -117,7 +118,7 @@ static void write_clip(ff_text *page, const ff_pack *pack, uint32_t index, const
     }
     ff_text_add(page, "</small></h2>\n");
     const json_t *entry = json_array_get(json_object_get(meta, "clips"), index);
-    ff_report_timeline(page, pack, clip, json_object_get(entry, "rejected"));
+    ff_report_timeline(page, pack, clip, entry);
     write_breaks(page, json_object_get(entry, "broken"));
     ff_report_clean(page, json_object_get(entry, "clean"));
     ff_report_steps(page, pack, clip);

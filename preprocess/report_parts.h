@@ -20,9 +20,9 @@ void ff_report_pose(const ff_pack *pack, uint32_t frame, ff_vec3 *positions);
 /* The frame of FRMS nearest to a time of a clip (s, from the file's first pose). */
 uint32_t ff_report_frame(const ff_pack *pack, const ff_pack_clip *clip, double seconds);
 
-/* Heights and speeds of both feet over time, plants shaded, actions and rejections below. rejected: the clip's list in
- * META, or NULL. */
-void ff_report_timeline(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip, const json_t *rejected);
+/* Heights and speeds of both feet over time, plants shaded, actions and rejections below. entry: what META says of
+ * the clip, or NULL. */
+void ff_report_timeline(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip, const json_t *entry);
 
 /* One card per action of the clip: the body from the side at five moments, and the annotation. */
 void ff_report_steps(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip);

@@ -1,5 +1,7 @@
 #include "preprocess/report_parts.h"
 
+#include <string.h>
+
 /* Layout, px: seconds to the right; per foot a band of heights over one of speeds; actions and rejections below. */
 enum {
     PER_SECOND = 110,
@@ -20,7 +22,8 @@ typedef struct view {
     const ff_pack *pack;
     const ff_pack_clip *clip;
     const ff_pack_stream *stream;
-    double start; /* s, of the first pose of the stream */
+    double start;        /* s, of the first pose of the stream */
+    const json_t *found; /* plants before a person changed them, or NULL */
 } view;
 
 static double x_of(const view *v, double seconds)
@@ -35,17 +38,38 @@ static void draw_plants(const view *v, int foot, double top)
         if ((int)p->foot != foot) continue;
         double dt = 1.0 / (double)v->clip->source_rate; /* both ends inclusive */
         ff_text_add(v->page,
-                    "<rect class=\"plant\" x=\"%.1f\" y=\"%.0f\" width=\"%.1f\" height=\"%d\"><title>",
-                    x_of(v, (double)p->start), top, ((double)p->end - (double)p->start + dt) * PER_SECOND,
-                    HEIGHT_BAND + SPEED_BAND);
-        ff_text_add(v->page, "%s foot down %.2f to %.2f s, slides %.1f cm, confidence %.2f</title></rect>",
+                    "<rect class=\"plant%s\" x=\"%.1f\" y=\"%.0f\" width=\"%.1f\" height=\"%d\"><title>",
+                    p->origin == FF_PLANT_WRITTEN ? " written" : "", x_of(v, (double)p->start), top,
+                    ((double)p->end - (double)p->start + dt) * PER_SECOND, HEIGHT_BAND + SPEED_BAND);
+        ff_text_add(v->page, "%s foot down %.2f to %.2f s, slides %.1f cm, confidence %.2f%s",
                     foot ? "right" : "left", (double)p->start, (double)p->end, 100.0 * (double)p->slide,
-                    (double)p->confidence);
+                    (double)p->confidence, p->origin == FF_PLANT_WRITTEN ? ", written by hand" : "");
+        if (p->level != 0.0f) ff_text_add(v->page, ", %.0f cm over the floor", 100.0 * (double)p->level);
+        ff_text_add(v->page, "</title></rect>");
         if (p->flat_start < 0.0f) continue;
         ff_text_add(v->page, "<rect class=\"flat\" x=\"%.1f\" y=\"%.0f\" width=\"%.1f\" height=\"%d\"/>",
                     x_of(v, (double)p->flat_start), top,
                     ((double)p->flat_end - (double)p->flat_start + dt) * PER_SECOND,
                     HEIGHT_BAND + SPEED_BAND);
+    }
+}
+
+/* What was found where a person's word holds instead: outlines. */
+static void draw_found(const view *v, int foot, double top)
+{
+    size_t i;
+    const json_t *p;
+    json_array_foreach(v->found, i, p)
+    {
+        const char *side = json_string_value(json_object_get(p, "foot"));
+        if (!side || (strcmp(side, "right") == 0) != (foot == 1)) continue;
+        double from = json_number_value(json_object_get(p, "from")),
+               to = json_number_value(json_object_get(p, "to"));
+        ff_text_add(
+            v->page,
+            "<rect class=\"found\" x=\"%.1f\" y=\"%.0f\" width=\"%.1f\" height=\"6\"><title>found: %.2f to "
+            "%.2f s</title></rect>",
+            x_of(v, from), top, ff_max(1.0, (to - from) * PER_SECOND), from, to);
     }
 }
 
@@ -68,6 +92,7 @@ static void draw_foot(const view *v, int foot, double width)
 {
     double top = 16.0 + foot * FOOT, speeds = top + HEIGHT_BAND;
     draw_plants(v, foot, top);
+    draw_found(v, foot, top);
     ff_text_add(v->page, "<line class=\"axis\" x1=\"%d\" x2=\"%.0f\" y1=\"%.0f\" y2=\"%.0f\"/>", MARGIN,
                 width, top + HEIGHT_BAND - 8, top + HEIGHT_BAND - 8);
     ff_text_add(v->page, "<line class=\"axis\" x1=\"%d\" x2=\"%.0f\" y1=\"%.0f\" y2=\"%.0f\"/>", MARGIN,
@@ -140,9 +165,15 @@ static void list_rejections(ff_text *page, const json_t *rejected)
     ff_text_add(page, "</ul></details>\n");
 }
 
-void ff_report_timeline(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip, const json_t *rejected)
+void ff_report_timeline(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip, const json_t *entry)
 {
-    view v = {page, pack, clip, &pack->streams[clip->stream], (double)clip->time_offset};
+    const json_t *rejected = json_object_get(entry, "rejected");
+    view v = {page,
+              pack,
+              clip,
+              &pack->streams[clip->stream],
+              (double)clip->time_offset,
+              json_object_get(entry, "found")};
     double seconds = (v.stream->frame_count - 1) / (double)v.stream->rate;
     double width = 2.0 * MARGIN + seconds * PER_SECOND, lanes = 16.0 + 2.0 * FOOT;
     ff_text_add(page, "<div class=\"scroll\"><svg width=\"%.0f\" height=\"%.0f\">", width,
@@ -161,6 +192,7 @@ void ff_report_timeline(ff_text *page, const ff_pack *pack, const ff_pack_clip *
         ff_text_add(page, "<span style=\"color:%s\">%s</span> ", point_colours[point], point_names[point]);
     ff_text_add(
         page,
-        "over their rest level and below their speeds; shaded: foot down, darker: flat and still</p>\n");
+        "over their rest level and below their speeds; shaded: foot down, darker: flat and still%s</p>\n",
+        v.found ? "; framed: written by hand, bars on top: what was found" : "");
     list_rejections(page, rejected);
 }
