@@ -1,28 +1,24 @@
 #include "preprocess/derive.h"
 
+#include "preprocess/loop.h"
 #include "runtime/core/leg_ik.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#define STAND_HALF_WIDTH 0.09 /* m, from the middle to a ball of standing feet */
-#define STAND_TOE_OUT (7.0 * FF_DEG)
 #define STAND_REACH 0.994 /* of the leg: knees that stand at ease bend by some 12 degrees */
-#define LIFT_MIN 0.045    /* m, the ball rises at least this far in a swing */
-#define CLEARANCE 0.04    /* m, how far a turning body's swing foot goes round the other one */
-#define ANKLES_APART 0.14 /* m, of a strafe's closed feet */
+#define GRAVITY 9.81
 
 /* What of the base is kept and how it is bent to the target. */
 typedef struct plan {
     const ff_rig *rig;
-    const ff_example *base;
+    const ff_example *base; /* trunk, arms and the side of the knees; read backwards for backward targets */
+    ff_gait_model model;    /* feet */
+    ff_rates rates;
     ff_vec3 rest[FF_BODY_COUNT];
     ff_quat mean[FF_ROLE_JOINT_COUNT]; /* of the base over its cycle */
     ff_vec3 mean_hips;
-    double centre[2][3]; /* ball (forward, left) and yaw in the middle of the stance */
-    double size;         /* of the gait, 1 = as the base: scales roll, rise, arms */
-    double stride;       /* m, of the base, signed */
-    double v0;
+    double size, period; /* of the gait, 1 = as the base: scales trunk and arms */
 } plan;
 
 static void mean_pose(plan *p)
@@ -42,62 +38,11 @@ static void mean_pose(plan *p)
         p->mean[r] = ff_quat_unit(p->mean[r]);
 }
 
-/* forward, left, height of the ball, yaw, pitch at a phase */
-static void foot_at(const ff_example *e, int foot, double phase, double out[5])
-{
-    int n = e->frame_count;
-    double frame = (phase - floor(phase)) * n, t = frame - floor(frame);
-    const ff_pack_foot *a = &e->feet[2 * ((int)frame % n) + foot],
-                       *b = &e->feet[2 * (((int)frame + 1) % n) + foot];
-    for (int i = 0; i < 3; ++i)
-        out[i] = ff_lerp((double)a->ball[i], (double)b->ball[i], t);
-    out[3] = (double)a->yaw + ff_wrap((double)b->yaw - (double)a->yaw) * t;
-    out[4] = ff_lerp((double)a->pitch, (double)b->pitch, t);
-}
-
-static double middle_of_lock(const ff_example *e, int foot)
-{
-    double from = (double)e->record.lock[foot][0], to = (double)e->record.lock[foot][1];
-    return from + 0.5 * (to < from ? to + 1.0 - from : to - from);
-}
-
 static void make_plan(const ff_rig *rig, const ff_example *base, plan *p)
 {
     *p = (plan){.rig = rig, .base = base};
     ff_rig_rest_pose(rig, p->rest);
     mean_pose(p);
-    for (int foot = 0; foot < 2; ++foot) {
-        double at[5];
-        foot_at(base, foot, middle_of_lock(base, foot), at);
-        p->centre[foot][0] = at[0];
-        p->centre[foot][1] = at[1];
-        p->centre[foot][2] = at[3];
-    }
-    p->v0 = (double)base->record.v_forward;
-    p->stride = p->v0 * (double)base->record.period;
-}
-
-/* How far a foot's swing has got: 0 at toe-off, 1 at contact; -1 while it is on the ground. */
-static double swing_share(const ff_pack_example *record, int foot, double phase)
-{
-    double off = (double)record->key[foot ? 1 : 3], contact = (double)record->key[foot ? 2 : 0];
-    double length = contact - off, at = phase - off;
-    length += length <= 0.0 ? 1.0 : 0.0;
-    at -= floor(at);
-    return at < length ? at / length : -1.0;
-}
-
-/* Where the middle of a foot's path is: (forward, left) of the root, between that of the base and standing feet. */
-static ff_vec2 foot_place(const plan *p, const ff_derive_target *target, int foot)
-{
-    double side = foot ? -1.0 : 1.0, part = ff_min(1.0, p->size);
-    double ahead = ff_lerp(p->rest[FF_ROLE_BALL_L].z - p->rest[FF_ROLE_HIP_L].z, p->centre[foot][0], part);
-    double half = ff_lerp(STAND_HALF_WIDTH, fabs(p->centre[foot][1]), part);
-    /* Side steps need room for the closing foot, unless the feet pass each other well apart in front and behind. */
-    double wide = 0.5 * (ANKLES_APART + 0.5 * fabs(target->left) * target->period);
-    double pass = 0.25 * fabs(target->forward) * target->period;
-    double fade = 1.0 - ff_smooth((pass - 0.25) / 0.2);
-    return ff_v2(ahead, side * (half + fade * ff_max(0.0, wide - half)));
 }
 
 typedef struct foot_target {
@@ -105,30 +50,12 @@ typedef struct foot_target {
     ff_quat rotation;
 } foot_target;
 
-static foot_target place_foot(const plan *p, const ff_derive_target *target, int foot, double phase)
+static foot_target place_foot(const plan *p, int foot, double phase, bool *stands)
 {
-    double at[5];
-    foot_at(p->base, foot, phase, at);
-    /* The base's forward path in strides says when the foot is where; the root's own path over that time, bent and
-     * turned as the target's, says where that is: a foot that stood in the base stands here. */
-    double ahead = (at[0] - p->centre[foot][0]) / p->stride * target->period;
-    ff_vec2 place = foot_place(p, target, foot);
-    place.b += (at[1] - p->centre[foot][1]) * ff_min(1.0, p->size);
-    double rest = p->rest[FF_ROLE_BALL_L].y, swing = swing_share(&p->base->record, foot, phase), bump = 0.0;
-    if (swing >= 0.0) {
-        double s = ff_sin(FF_PI * swing);
-        bump = s * s;
-    }
-    double turning = ff_min(1.0, fabs(target->turn)) * (1.0 - ff_min(1.0, p->size));
-    place.b += (foot ? -1.0 : 1.0) * CLEARANCE * turning * bump;
-    double angle = target->turn * ahead;
-    ff_vec2 on_path = ff_add2(ff_from_frame2(ff_fwd2(angle), place),
-                              ff_root_arc(ff_v2(target->forward, target->left), target->turn, ahead));
-    double height = rest + ff_max((at[2] - rest) * ff_clamp(p->size, 0.6, 1.1), LIFT_MIN * bump);
-    double toe_out = ff_lerp((foot ? -1.0 : 1.0) * STAND_TOE_OUT, p->centre[foot][2], ff_min(1.0, p->size));
-    double yaw = angle + toe_out + ff_wrap(at[3] - p->centre[foot][2]) * p->size;
-    ff_quat pitch = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -at[4] * p->size);
-    return (foot_target){ff_v3(on_path.b, height, on_path.a), ff_quat_mul(ff_quat_yaw(yaw), pitch)};
+    ff_model_foot at = ff_gait_model_foot(&p->model, p->rates, p->period, foot, phase);
+    ff_quat pitch = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -at.pitch);
+    *stands = at.swing < 0.0;
+    return (foot_target){ff_v3(at.left, at.height, at.forward), ff_quat_mul(ff_quat_yaw(at.yaw), pitch)};
 }
 
 static ff_vec3 ankle_of(const ff_rig *rig, const foot_target *t)
@@ -136,16 +63,26 @@ static ff_vec3 ankle_of(const ff_rig *rig, const foot_target *t)
     return ff_sub3(t->ball, ff_quat_rotate(t->rotation, rig->offset[FF_ROLE_BALL_L]));
 }
 
-/* Trunk and arms between the base's mean and its motion; legs as the base has them, for the side of the knees. */
+/* The base's phase whose body goes with the feet at a phase: backwards the cycle is read backwards. */
+static double body_phase(const plan *p, double phase)
+{
+    return p->rates.forward < 0.0 ? (double)p->base->record.key[3] - phase : phase;
+}
+
+/* Trunk and arms between the base's mean and its motion; legs as the base has them, for the side of the knees. Who runs
+ * a bend leans into it. */
 static void body_pose(const plan *p, double phase, ff_vec3 *hips, ff_quat *local)
 {
-    ff_example_sample(p->base, phase, hips, local);
+    ff_example_sample(p->base, body_phase(p, phase), hips, local);
     double part = ff_clamp(p->size, 0.15, 1.0);
     for (int r = 0; r < FF_ROLE_HIP_L; ++r)
         local[r] = ff_quat_slerp(p->mean[r], local[r], part);
-    hips->x = (hips->x - p->mean_hips.x) * part;
-    hips->y = (hips->y - p->mean_hips.y) * ff_max(part, 0.6);
-    hips->z = p->mean_hips.z + (hips->z - p->mean_hips.z) * part;
+    *hips = ff_gait_model_hips(&p->model, p->rates, phase);
+    hips->z += p->mean_hips.z;
+    if (p->base->record.gait != FF_GAIT_RUN) return;
+    double lean = ff_atan2(p->rates.forward * p->rates.turn, GRAVITY);
+    hips->y += p->mean_hips.z * ff_sin(lean);
+    local[0] = ff_quat_mul(ff_quat_axis(ff_v3(0.0, 0.0, 1.0), -lean), local[0]);
 }
 
 /* How much higher the hips may be before this leg is longer than reach of its length. */
@@ -176,9 +113,9 @@ static void solve_leg(const plan *p, int foot, const foot_target *target, const 
     local[ball] = ff_quat_slerp(FF_QUAT_IDENTITY, local[ball], ff_min(1.0, p->size));
 }
 
-/* All frames: feet where place says, the hips at one height over the base's own motion, so that the longest reach of a
- * standing leg is reach. */
-static void solve_frames(const plan *p, const ff_derive_target *target, double reach, ff_example *out)
+/* All frames: feet where the model says, the hips at one height over the base's own motion, so that the longest reach of
+ * a standing leg is reach. */
+static void solve_frames(const plan *p, double reach, ff_example *out)
 {
     double lift = 1e9;
     for (int pass = 0; pass < 2; ++pass) {
@@ -192,8 +129,8 @@ static void solve_frames(const plan *p, const ff_derive_target *target, double r
             world_of(local, world);
             ff_rig_pose(p->rig, ff_v3(hips.y, hips.z, hips.x), world, at);
             for (int foot = 0; foot < 2; ++foot) {
-                foot_target to = place_foot(p, target, foot, phase);
-                bool stands = swing_share(&p->base->record, foot, phase) < 0.0;
+                bool stands;
+                foot_target to = place_foot(p, foot, phase, &stands);
                 if (pass) solve_leg(p, foot, &to, at, world, local);
                 if (!pass && stands)
                     lift = ff_min(lift, room_above(p, at, foot, ankle_of(p->rig, &to), reach));
@@ -202,25 +139,40 @@ static void solve_frames(const plan *p, const ff_derive_target *target, double r
     }
 }
 
-ff_status ff_derive_walk(const ff_rig *rig, const ff_example *base, const ff_derive_target *target,
-                         ff_example *out, ff_error *error)
+/* Both sides are alike; a run's right foot leaves after its own contact, a walk's after the left one's. */
+static void set_keys(const plan *p, ff_pack_example *record)
+{
+    double stance = ff_gait_model_stance(&p->model, p->rates), right_off = 0.5 + stance;
+    record->key[0] = 0.0f;
+    record->key[1] = (float)(right_off - floor(right_off));
+    record->key[2] = 0.5f;
+    record->key[3] = (float)stance;
+}
+
+ff_status ff_derive_walk(const ff_rig *rig, const ff_example *base, const ff_gait_fit *fit,
+                         const ff_derive_target *target, ff_example *out, ff_error *error)
 {
     plan p;
     make_plan(rig, base, &p);
-    p.size = ff_clamp(fabs(target->forward) / fabs(p.v0), 0.12, 1.15);
-    ff_status status = ff_example_alloc(out, (int)floor(target->period * FF_PACK_RATE + 0.5), error);
+    p.model = ff_gait_fit_model(fit);
+    p.rates = (ff_rates){target->forward, target->left, target->turn};
+    p.size = ff_gait_model_size(&p.model, p.rates);
+    p.period = target->period > 0.0 ? target->period : ff_gait_model_period(&p.model, p.rates);
+    ff_status status = ff_example_alloc(out, (int)floor(p.period * FF_PACK_RATE + 0.5), error);
     if (status != FF_OK) return status;
     out->record = base->record;
     out->record.flags = (base->record.flags | FF_EXAMPLE_DERIVED) & ~(uint32_t)FF_EXAMPLE_MIRRORED;
-    out->record.period = (float)target->period;
+    out->record.period = (float)p.period;
     out->record.v_forward = (float)target->forward;
     out->record.v_left = (float)target->left;
     out->record.turn_rate = (float)target->turn;
     out->record.seam = 0.0f;
     out->clip = base->clip;
+    set_keys(&p, &out->record);
     snprintf(out->name, sizeof out->name, "%s from %.60s", target->name, base->name);
-    solve_frames(&p, target, FF_LEG_REACH, out);
+    solve_frames(&p, FF_LEG_REACH, out);
     ff_example_find_feet(rig, out);
+    ff_loop_find_contact_kick(rig, out);
     return FF_OK;
 }
 
@@ -256,9 +208,9 @@ ff_status ff_derive_idle(const ff_rig *rig, const ff_example *base, ff_example *
         ff_rig_pose(rig, hips, world, at);
         for (int foot = 0; foot < 2; ++foot) {
             double side = foot ? -1.0 : 1.0;
-            feet[foot].ball = ff_v3(side * STAND_HALF_WIDTH, p.rest[FF_ROLE_BALL_L].y,
+            feet[foot].ball = ff_v3(side * FF_STAND_HALF_WIDTH, p.rest[FF_ROLE_BALL_L].y,
                                     p.rest[FF_ROLE_BALL_L].z - p.rest[FF_ROLE_HIP_L].z);
-            feet[foot].rotation = ff_quat_yaw(side * STAND_TOE_OUT);
+            feet[foot].rotation = ff_quat_yaw(side * FF_STAND_TOE_OUT);
             lift = ff_min(lift, room_above(&p, at, foot, ankle_of(rig, &feet[foot]), STAND_REACH));
         }
         hips.y += lift;

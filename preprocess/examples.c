@@ -2,6 +2,7 @@
 
 #include "preprocess/derive.h"
 #include "preprocess/example_judge.h"
+#include "preprocess/example_kinds.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 
@@ -14,8 +15,6 @@
 #define KNEE_COST 0.2     /* m per rad */
 #define TURN_COST 0.2     /* m, more than any seam */
 #define STRANGER_COST 1.0 /* m, far more than any seam: others are taken where the base person has none */
-/* Metres per second that 1 rad/s counts for, as the runtime measures rates. */
-#define TURN_SCALE 0.5
 /* Examples are at least this far apart (m/s). */
 #define SPACING_WALK 0.15
 #define SPACING_RUN 0.4
@@ -23,7 +22,7 @@
 static ff_vec3 point_of(const ff_example *e)
 {
     return ff_v3((double)e->record.v_forward, (double)e->record.v_left,
-                 TURN_SCALE * (double)e->record.turn_rate);
+                 FF_KIND_TURN_SCALE * (double)e->record.turn_rate);
 }
 
 static ff_vec3 mirror_point(ff_vec3 p)
@@ -164,60 +163,76 @@ static ff_status add_example(const ff_rig *rig, ff_example_set *set, int capacit
     return status;
 }
 
-/* How far the nearest example of the set is from a target. */
-static double nearest(const ff_example_set *set, ff_vec3 target)
+/* Does the set have an example of a kind, captured or mirrored? */
+static bool has_kind(const ff_example_set *set, const ff_example_kind *kind)
 {
-    double best = 1e9;
-    for (int i = 0; i < set->count; ++i) {
-        const ff_example *e = &set->items[i];
-        if (e->record.gait == FF_GAIT_WALK && !(e->record.flags & FF_EXAMPLE_IDLE))
-            best = ff_min(best, distance(target, point_of(e)));
-    }
-    return best;
+    for (int i = 0; i < set->count; ++i)
+        for (double side = 1.0; side > -2.0; side -= 2.0)
+            if (ff_kind_distance(kind, side, &set->items[i].record) < kind->within) return true;
+    return false;
 }
 
-/* What walking needs, and from how far away (m/s) a captured example does instead. Limits and periods are those of the
- * synthesis study, section 5. */
-static const struct need {
-    ff_derive_target target;
-    double within;
-} needs[] = {
-    {{"step in place", 0.0, 0.0, 0.0, 1.1}, 0.1},    {{"slow walk", 0.45, 0.0, 0.0, 1.3}, 0.25},
-    {{"turn in place", 0.0, 0.0, 1.57, 0.95}, 0.35}, {{"side step", 0.0, 0.55, 0.0, 0.85}, 0.3},
-    {{"back", -0.7, 0.0, 0.0, 1.1}, 0.35},           {{"tight turn", 0.7, 0.0, 1.5, 1.0}, 0.3},
-};
-
-static ff_status derive_needs(const ff_rig *rig, const ff_example *base, ff_example_set *set, int capacity,
-                              ff_error *error)
+static ff_status derive_kind(const ff_rig *rig, const ff_example *base, const ff_gait_fit *fit,
+                             const ff_example_kind *kind, ff_example_set *set, int capacity, ff_error *error)
 {
-    ff_example reversed;
-    ff_status status = ff_example_reverse(rig, base, &reversed, error);
-    for (size_t i = 0; status == FF_OK && i < sizeof needs / sizeof needs[0]; ++i) {
-        const ff_derive_target *target = &needs[i].target;
-        if (nearest(set, ff_v3(target->forward, target->left, TURN_SCALE * target->turn)) < needs[i].within)
-            continue;
-        ff_example made;
-        status = ff_derive_walk(rig, target->forward < 0.0 ? &reversed : base, target, &made, error);
-        if (status == FF_OK) {
-            status = add_example(rig, set, capacity, &made, error);
-            ff_example_free(&made);
-        }
-    }
-    ff_example_free(&reversed);
+    ff_example made;
+    double period = kind->period;
+    /* A run takes its own time for a cycle; the cadence of walks is not its. */
+    if (kind->gait == FF_GAIT_RUN) period = (double)base->record.period;
+    const ff_derive_target target = {kind->name, kind->forward, kind->left, kind->turn, period};
+    ff_status status = ff_derive_walk(rig, base, fit, &target, &made, error);
+    if (status == FF_OK) status = add_example(rig, set, capacity, &made, error);
+    ff_example_free(&made);
     return status;
 }
 
-/* The straight walk to derive from: nearest to an easy 1.15 m/s. */
-static const ff_example *find_model(const ff_example_set *set)
+/* The straight example of a gait to derive from: nearest to an easy speed. */
+static const ff_example *find_model(const ff_example_set *set, uint32_t gait, float easy)
 {
     const ff_example *best = NULL;
     for (int i = 0; i < set->count; ++i) {
         const ff_example *e = &set->items[i];
-        if (e->record.gait != FF_GAIT_WALK || !ff_example_is_straight(e) || e->record.v_forward < 0.5f)
-            continue;
-        if (!best || fabsf(e->record.v_forward - 1.15f) < fabsf(best->record.v_forward - 1.15f)) best = e;
+        if (e->record.gait != gait || !ff_example_is_straight(e) || e->record.v_forward < 0.5f) continue;
+        if (e->record.flags & FF_EXAMPLE_DERIVED) continue;
+        if (!best || fabsf(e->record.v_forward - easy) < fabsf(best->record.v_forward - easy)) best = e;
     }
     return best;
+}
+
+/* What no clip shows. Runs are bent from a straight run, when there is one. */
+static ff_status derive_kinds(const ff_rig *rig, const ff_example *walk, ff_example_set *set, int capacity,
+                              ff_error *error)
+{
+    ff_gait_fit run_fit;
+    const ff_example *run = find_model(set, FF_GAIT_RUN, 2.6f);
+    if (run) ff_gait_fit_make(rig, run, NULL, 0, &run_fit);
+    ff_status status = FF_OK;
+    for (int i = 0; status == FF_OK && i < FF_EXAMPLE_KINDS; ++i) {
+        const ff_example_kind *kind = &ff_example_kinds[i];
+        bool runs = kind->gait == FF_GAIT_RUN;
+        if (kind->idle || (runs && !run) || has_kind(set, kind)) continue;
+        status =
+            derive_kind(rig, runs ? run : walk, runs ? &run_fit : &set->gait, kind, set, capacity, error);
+    }
+    return status;
+}
+
+/* The semi-procedural clip is the model walk; its laws are fitted to the good straight walks of the same person, chosen
+ * or not, as people differ more than speeds do. */
+static ff_status fit_gait(const ff_rig *rig, const candidate *list, int count, const int *subject,
+                          const ff_example *model, ff_example_set *set, ff_error *error)
+{
+    size_t room = (size_t)(count + set->count);
+    const ff_example **walks = ff_calloc(room, sizeof(const ff_example *));
+    if (!walks) return ff_fail(error, FF_ERR_NO_MEMORY, "the walks to fit a gait to");
+    int used = 0, person = model->clip < 0 ? 0 : subject[model->clip];
+    for (int i = 0; i < count; ++i)
+        if (list[i].example->frame_count > 0 && list[i].subject == person) walks[used++] = list[i].example;
+    for (int i = 0; i < set->count; ++i)
+        if (set->items[i].clip >= 0 && subject[set->items[i].clip] == person) walks[used++] = &set->items[i];
+    ff_gait_fit_make(rig, model, walks, used, &set->gait);
+    free(walks);
+    return FF_OK;
 }
 
 static ff_status add_idle(const ff_rig *rig, const candidate *list, int count, const ff_example *model,
@@ -251,8 +266,8 @@ static int by_rates(const void *x, const void *y)
     return p.y > q.y ? -1 : (p.y < q.y ? 1 : 0);
 }
 
-static ff_status fill_set(const ff_rig *rig, candidate *list, int count, int *chosen, ff_example_set *out,
-                          ff_error *error)
+static ff_status fill_set(const ff_rig *rig, candidate *list, int count, const int *subject, int *chosen,
+                          ff_example_set *out, ff_error *error)
 {
     const int room = 2 * (FF_EXAMPLES_MAX_WALKS + FF_EXAMPLES_MAX_RUNS);
     out->candidates = count;
@@ -269,16 +284,21 @@ static ff_status fill_set(const ff_rig *rig, candidate *list, int count, int *ch
         for (int i = 0; i < taken && status == FF_OK; ++i)
             status = add_example(rig, out, room, list[chosen[i]].example, error);
     }
-    const ff_example *model = find_model(out);
+    const ff_example *model = find_model(out, FF_GAIT_WALK, 1.15f);
     if (status == FF_OK && !model)
         return ff_fail(
             error, FF_ERR_NO_DATA,
             "no clip has a whole straight walking cycle (left contact to left contact) that closes within "
             "%.0f cm; add longer walks",
             100.0 * 2.0 * FF_LOOP_MOVED_STRAIGHT);
-    if (status == FF_OK) status = derive_needs(rig, model, out, room, error);
+    char name[sizeof model->name] = "";
+    if (status == FF_OK) memcpy(name, model->name, sizeof name);
+    if (status == FF_OK) status = fit_gait(rig, list, count, subject, model, out, error);
+    if (status == FF_OK) status = derive_kinds(rig, model, out, room, error);
     if (status == FF_OK) status = add_idle(rig, list, count, model, out, room, error);
     if (status == FF_OK) qsort(out->items, (size_t)out->count, sizeof *out->items, by_rates);
+    for (int i = 0; i < out->count; ++i)
+        if (strcmp(out->items[i].name, name) == 0) out->gait.gait.example = (uint32_t)i;
     return status;
 }
 
@@ -296,7 +316,7 @@ ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *su
     ff_status status;
     if (list && chosen && out->items && out->left_out) {
         int count = list_candidates(rig, cycles, subject, clip_count, list, out);
-        status = fill_set(rig, list, count, chosen, out, error);
+        status = fill_set(rig, list, count, subject, chosen, out, error);
     } else {
         status = ff_fail(error, FF_ERR_NO_MEMORY, "choosing among %zu gait cycles", all);
     }

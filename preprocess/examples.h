@@ -3,6 +3,7 @@
 #define FF_EXAMPLES_H
 
 #include "preprocess/cycles.h"
+#include "preprocess/gait_fit.h"
 
 #define FF_EXAMPLES_MAX_WALKS 60
 #define FF_EXAMPLES_MAX_RUNS 20
@@ -16,8 +17,9 @@ typedef struct ff_example_set {
     ff_example
         *items; /* idle first, then walks, then runs, each by rates; mirrored copies follow their original */
     int count;
-    int base;       /* subject whose cycles come first, -1 = none */
-    int candidates; /* cycles that were good enough to choose from */
+    int base;         /* subject whose cycles come first, -1 = none */
+    int candidates;   /* cycles that were good enough to choose from */
+    ff_gait_fit gait; /* the semi-procedural clip */
     ff_left_out *left_out;
     int left_out_count;
 } ff_example_set;

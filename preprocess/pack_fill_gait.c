@@ -1,10 +1,12 @@
 /* What velocity planning and synthesis need beside the examples themselves. */
 #include "preprocess/correspond_set.h"
+#include "preprocess/derive.h"
 #include "preprocess/pack_fill.h"
 
 #include "runtime/core/base/fail.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static ff_status no_memory(ff_error *error)
 {
@@ -48,16 +50,45 @@ static ff_status add_correspondence(ff_pack_content *content, const ff_set_pairs
     return FF_OK;
 }
 
+static ff_status add_model(ff_pack_content *content, const ff_gait_fit *fit, ff_error *error)
+{
+    ff_pack_gait *gait = ff_array_grow(&content->gait, 1, sizeof *gait);
+    ff_pack_gait_path *path = ff_array_grow(&content->gait_path, FF_GAIT_SAMPLES, sizeof *path);
+    if (!gait || !path) return no_memory(error);
+    *gait = fit->gait;
+    memcpy(path, fit->path, sizeof fit->path);
+    return FF_OK;
+}
+
+/* The semi-procedural clip at the rates of each walk; nothing for runs, which it does not do. */
+static ff_status play_model(const ff_rig *rig, const ff_example_set *set, ff_example *gait, ff_error *error)
+{
+    const ff_example *base = &set->items[set->gait.gait.example];
+    ff_status status = FF_OK;
+    for (int i = 0; i < set->count && status == FF_OK; ++i) {
+        const ff_pack_example *r = &set->items[i].record;
+        if (r->gait != FF_GAIT_WALK) continue;
+        ff_derive_target target = {"gait", (double)r->v_forward, (double)r->v_left, (double)r->turn_rate,
+                                   0.0};
+        status = ff_derive_walk(rig, base, &set->gait, &target, &gait[i], error);
+    }
+    return status;
+}
+
 ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff_example_set *set,
                            ff_tasks *tasks, ff_error *error)
 {
     ff_correspondences found = {0};
     ff_example *gait = ff_calloc((size_t)set->count, sizeof *gait);
     ff_status status = gait ? add_loops(content, set, error) : no_memory(error);
+    if (status == FF_OK) status = add_model(content, &set->gait, error);
+    if (status == FF_OK) status = play_model(rig, set, gait, error);
     if (status == FF_OK) status = ff_correspond_set(rig, set, gait, tasks, &found, error);
     for (int i = 0; i < found.count && status == FF_OK; ++i)
         status = add_correspondence(content, &found.items[i], error);
     ff_correspondences_free(&found);
+    for (int i = 0; gait && i < set->count; ++i)
+        ff_example_free(&gait[i]);
     free(gait);
     return status;
 }

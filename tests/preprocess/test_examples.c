@@ -210,9 +210,11 @@ static void made_up_walks_hold_their_feet_and_bend_their_knees(void **state)
     const ff_derive_target targets[] = {{"step", 0.0, 0.0, 0.0, 1.1},   {"turn", 0.0, 0.0, 1.57, 0.95},
                                         {"side", 0.0, 0.55, 0.0, 0.85}, {"slow", 0.45, 0.0, 0.0, 1.3},
                                         {"curve", 0.7, 0.0, 1.5, 1.0},  {"mixed", 0.5, -0.3, -0.6, 1.1}};
+    ff_gait_fit fit;
+    ff_gait_fit_make(&rig, &cycles.items[0], NULL, 0, &fit);
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; ++i) {
         ff_example e;
-        FF_ASSERT_OK(ff_derive_walk(&rig, &cycles.items[0], &targets[i], &e, &error), error);
+        FF_ASSERT_OK(ff_derive_walk(&rig, &cycles.items[0], &fit, &targets[i], &e, &error), error);
         check_walk(&e, 0.03);
         check_knees(&e, 0.1);
         double lift[2] = {0.0, 0.0};
