@@ -217,8 +217,7 @@ static ff_status fill(build *b, ff_error *error)
     free(subject);
     free(cycles);
     if (status != FF_OK) return status;
-    status = ff_pack_add_rig(content, &b->rig, error);
-    if (status == FF_OK) status = ff_pack_add_examples(content, &set, error);
+    status = ff_pack_add_examples(content, &set, error);
     if (status == FF_OK) status = ff_pack_add_gait(content, &b->rig, &set, b->tasks, error);
     if (status == FF_OK)
         status = ff_pack_add_clips(content, b->clips, b->good, b->settings->pack.poses.rate, error);
@@ -264,6 +263,9 @@ static ff_status run(build *b, ff_error *error)
     b->good = b->count;
     if (status == FF_OK) status = run_stage(b, "reading", ff_build_clip_find, error);
     if (status == FF_OK) status = make_rig(b, error);
+    if (status == FF_OK) status = ff_pack_add_rig(&b->result->content, &b->rig, error);
+    b->shared.joints = b->result->content.joints.data;
+    b->shared.points = b->result->content.points.data;
     if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
     if (status == FF_OK) status = run_stage(b, "cutting", ff_build_clip_cut, error);
     if (status == FF_OK) status = split_walks(b, error);
@@ -277,7 +279,7 @@ ff_status ff_build(const ff_catalogue *catalogue, const ff_build_settings *setti
     memset(out, 0, sizeof *out);
     build b = {.catalogue = catalogue, .settings = settings, .result = out};
     ff_cache_open(&b.cache, settings->cache);
-    b.shared = (ff_build_shared){&settings->pack, &b.cache, &b.rig};
+    b.shared = (ff_build_shared){.settings = &settings->pack, .cache = &b.cache, .rig = &b.rig};
     ff_status status = ff_tasks_create(settings->threads, &b.tasks, error);
     if (status == FF_OK) status = run(&b, error);
     if (status == FF_OK && settings->prune) prune(&b);

@@ -24,6 +24,7 @@ void ff_build_clip_free(ff_build_clip *clip)
     ff_motion_free(&clip->motion);
     ff_actions_free(&clip->actions);
     ff_cycles_free(&clip->cycles);
+    ff_pose_coded_free(&clip->pose);
     memset(clip, 0, sizeof *clip);
 }
 
@@ -264,6 +265,25 @@ ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *
     return status;
 }
 
+/* From the first real pose on. Nothing needs the frames afterwards. */
+static ff_status store_motion(ff_build_clip *clip, const ff_build_shared *shared)
+{
+    ff_motion *motion = &clip->motion;
+    size_t rest = (size_t)clip->clip.rest_frames;
+    ff_pose_motion poses = {.frame_count = motion->frame_count - (int)rest,
+                            .frame_time = motion->frame_time,
+                            .root = motion->root + rest,
+                            .hips = motion->hips + rest,
+                            .rotations = motion->rotations + rest * FF_ROLE_JOINT_COUNT};
+    ff_status status = ff_pose_encode(shared->joints, shared->points, &poses, &clip->pose, &clip->error);
+    ff_motion head = *motion;
+    ff_motion_free(motion);
+    motion->frame_count = head.frame_count;
+    motion->frame_time = head.frame_time;
+    motion->scale = head.scale;
+    return status;
+}
+
 static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
 {
     const ff_plants *plants = &clip->plants;
@@ -286,6 +306,7 @@ static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
     if (status == FF_OK && walks)
         status = ff_cycles_cut_idle(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
                                     &clip->error);
+    if (status == FF_OK) status = store_motion(clip, shared);
     return status;
 }
 

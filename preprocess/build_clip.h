@@ -6,6 +6,7 @@
 #include "preprocess/cache.h"
 #include "preprocess/clean.h"
 #include "preprocess/cycles.h"
+#include "preprocess/pose_encode.h"
 #include "preprocess/settings.h"
 #include "preprocess/steps.h"
 
@@ -34,17 +35,20 @@ typedef struct ff_build_clip {
     ff_breaks repaired; /* what was broken in the file; what could not be put back is in plants.breaks too */
     ff_plants plants;
     /* Stage 2 */
-    ff_motion motion;
+    ff_motion motion;        /* after stage 2 without its frames: pose holds them */
     ff_clean_report cleaned; /* all 0 when it was not asked for */
     ff_actions actions;
     ff_cycles cycles;
+    ff_pose_coded pose; /* the motion from its first real pose on */
 } ff_build_clip;
 
 /* What the stages of every clip share. */
 typedef struct ff_build_shared {
     const ff_settings *settings;
     ff_cache *cache;
-    const ff_rig *rig; /* stage 2 */
+    const ff_rig *rig; /* stage 2, and what the pack says of it */
+    const ff_pack_joint *joints;
+    const ff_pack_point *points;
 } ff_build_shared;
 
 /* Take what the catalogue says, or the generator of built-in clip index. */
@@ -53,7 +57,7 @@ void ff_build_clip_begin(ff_build_clip *clip, const ff_catalogue_entry *entry, i
 void ff_build_clip_find(ff_build_clip *clip, const ff_build_shared *shared);
 /* All frames of the clip as stage 1 saw them (trimmed, single broken ones put back). The caller frees *out. */
 ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *error);
-/* Stage 2: onto the rig, feet cleaned up if the settings say so, actions and gait cycles. */
+/* Stage 2: onto the rig, feet cleaned up if the settings say so, actions, gait cycles and the motion as the pack stores it. */
 void ff_build_clip_cut(ff_build_clip *clip, const ff_build_shared *shared);
 
 static inline double ff_build_clip_seconds(const ff_build_clip *clip)

@@ -10,8 +10,9 @@ _Static_assert(sizeof(ff_plants) == 240, "carry_plants: is everything of ff_plan
 _Static_assert(sizeof(ff_motion) == 48, "carry_motion: is everything of ff_motion carried?");
 _Static_assert(sizeof(ff_actions) == 32, "carry_actions: is everything of ff_actions carried?");
 _Static_assert(sizeof(ff_cycles) == 16, "carry_cycles: is everything of ff_cycles carried?");
+_Static_assert(sizeof(ff_pose_coded) == 600, "carry_pose: is everything of ff_pose_coded carried?");
 _Static_assert(sizeof(ff_example) == 240, "carry_cycles: is everything of ff_example carried?");
-_Static_assert(sizeof(ff_build_clip) == 1656, "is everything the stages find carried?");
+_Static_assert(sizeof(ff_build_clip) == 2256, "is everything the stages find carried?");
 
 /* Bytes on their way: to out, or, when that is NULL, from in. */
 typedef struct carrier {
@@ -109,10 +110,24 @@ static void carry_motion(carrier *c, ff_motion *motion)
     head.root = head.hips = NULL;
     head.rotations = NULL;
     CARRY_HEAD(c, motion, head);
-    carry_list(c, &motion->root, head.frame_count, sizeof *motion->root);
-    carry_list(c, &motion->hips, head.frame_count, sizeof *motion->hips);
-    carry_list(c, &motion->rotations, (int64_t)head.frame_count * FF_ROLE_JOINT_COUNT,
-               sizeof *motion->rotations);
+}
+
+static void carry_bytes(carrier *c, ff_array *bytes, size_t element)
+{
+    int64_t count = (int64_t)bytes->count;
+    carry(c, &count, sizeof count);
+    carry_list(c, &bytes->data, count, element);
+    if (!c->out && c->good) bytes->count = bytes->capacity = (size_t)count;
+}
+
+static void carry_pose(carrier *c, ff_pose_coded *pose)
+{
+    ff_pose_coded head = *pose;
+    head.lanes = head.keys = head.roots = (ff_array){0};
+    CARRY_HEAD(c, pose, head);
+    carry_bytes(c, &pose->lanes, sizeof(ff_pack_lanes));
+    carry_bytes(c, &pose->keys, 1);
+    carry_bytes(c, &pose->roots, 3 * sizeof(float));
 }
 
 static void carry_actions(carrier *c, ff_actions *actions)
@@ -174,6 +189,7 @@ static void carry_cut(carrier *c, ff_build_clip *clip)
     carry(c, &clip->cleaned, sizeof clip->cleaned);
     carry_actions(c, &clip->actions);
     carry_cycles(c, &clip->cycles);
+    carry_pose(c, &clip->pose);
 }
 
 static bool carry_out(const ff_build_clip *clip, void (*part)(carrier *, ff_build_clip *), ff_array *out)
@@ -225,6 +241,7 @@ bool ff_carry_cut_in(ff_build_clip *clip, const void *data, size_t size)
         clip->cleaned = read.cleaned;
         clip->actions = read.actions;
         clip->cycles = read.cycles;
+        clip->pose = read.pose;
     } else {
         ff_build_clip_free(&read);
     }

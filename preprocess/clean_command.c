@@ -29,7 +29,8 @@ static void load_one(void *context, uint32_t index)
 {
     clean_run *run = context;
     ff_build_clip_begin(&run->clips[index], &run->catalogue->entries[index], 0);
-    ff_build_clip_find(&run->clips[index], &(ff_build_shared){&run->settings, &run->cache, NULL});
+    ff_build_clip_find(&run->clips[index],
+                       &(ff_build_shared){.settings = &run->settings, .cache = &run->cache});
     ff_progress_step(run->progress, run->catalogue->entries[index].path);
 }
 

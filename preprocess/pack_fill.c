@@ -62,26 +62,25 @@ ff_status ff_pack_add_rig(ff_pack_content *content, const ff_rig *rig, ff_error 
 
 /* ---------------------------------------------------------------------------------------------------- examples */
 
-static ff_status add_stream(ff_pack_content *content, int frames, double rate, uint32_t flags,
-                            uint32_t *index, ff_pack_frame **frame, int16_t (**rotation)[4], ff_error *error)
+static ff_status add_cycle(ff_pack_content *content, const ff_example *example, uint32_t *stream,
+                           ff_error *error)
 {
-    size_t n = (size_t)frames, first = content->frames.count;
-    ff_pack_stream *stream = ff_array_grow(&content->streams, 1, sizeof *stream);
-    *frame = ff_array_grow(&content->frames, n, sizeof **frame);
-    *rotation = ff_array_grow(&content->rotations, n * FF_ROLE_JOINT_COUNT, sizeof **rotation);
-    if (!stream || !*frame || !*rotation) return no_memory(error);
-    if (content->frames.count > UINT32_MAX / FF_PACK_MAX_JOINTS)
-        return ff_fail(error, FF_ERR_RANGE, "too many frames for one pack (%zu); build several",
-                       content->frames.count);
-    *stream = (ff_pack_stream){(uint32_t)first, (uint32_t)frames, (float)rate, flags};
-    *index = (uint32_t)(content->streams.count - 1);
-    return FF_OK;
+    double rate = example->frame_count / (double)example->record.period;
+    ff_pose_motion motion = {.frame_count = example->frame_count,
+                             .frame_time = 1.0 / rate,
+                             .cyclic = true,
+                             .hips = example->hips,
+                             .rotations = example->rotations};
+    ff_pose_coded coded;
+    ff_status status = ff_pose_encode(content->joints.data, content->points.data, &motion, &coded, error);
+    if (status != FF_OK) return status;
+    status = ff_pack_add_stream(content, &coded, example->frame_count, rate, stream, error);
+    ff_pose_coded_free(&coded);
+    return status;
 }
 
 static ff_status add_example(ff_pack_content *content, const ff_example *example, ff_error *error)
 {
-    int16_t(*rotation)[4];
-    ff_pack_frame *frame;
     ff_pack_example *record = ff_array_grow(&content->examples, 1, sizeof *record);
     size_t n = (size_t)example->frame_count;
     ff_pack_foot *feet = ff_array_grow(&content->feet, 2 * n, sizeof *feet);
@@ -91,18 +90,7 @@ static ff_status add_example(ff_pack_content *content, const ff_example *example
     record->clip = (uint32_t)(example->clip < 0 ? 0 : example->clip);
     if (record->name == UINT32_MAX) return no_memory(error);
     memcpy(feet, example->feet, 2 * n * sizeof *feet);
-    double rate = example->frame_count / (double)record->period;
-    ff_status status = add_stream(content, example->frame_count, rate, FF_STREAM_CYCLIC, &record->stream,
-                                  &frame, &rotation, error);
-    if (status != FF_OK) return status;
-    for (size_t k = 0; k < n; ++k) {
-        frame[k] = (ff_pack_frame){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
-        put3(frame[k].hips, example->hips[k]);
-        for (size_t r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
-            ff_pack_quantise(example->rotations[k * FF_ROLE_JOINT_COUNT + r],
-                             rotation[k * FF_ROLE_JOINT_COUNT + r]);
-    }
-    return FF_OK;
+    return add_cycle(content, example, &record->stream, error);
 }
 
 /* Simplices of the moving examples of one gait. */
@@ -183,31 +171,20 @@ static void put_track(const ff_foot_track *from, ff_pack_track *to)
     }
 }
 
-/* Poses and foot tracks at the pack's rate, from the first real pose on. */
+/* The coded motion, and foot tracks at the pack's rate, from the first real pose on. */
 static ff_status add_poses(ff_pack_content *content, const ff_build_clip *clip, double rate, uint32_t *stream,
                            ff_error *error)
 {
-    const ff_motion *motion = &clip->motion;
-    int rest = clip->clip.rest_frames;
-    double seconds = (motion->frame_count - 1 - rest) * motion->frame_time;
-    int frames = (int)floor(seconds * rate + 1e-6) + 1;
-    int16_t(*rotation)[4];
-    ff_pack_frame *frame;
-    ff_status status = add_stream(content, frames, rate, 0, stream, &frame, &rotation, error);
+    double dt = clip->motion.frame_time;
+    int rest = clip->clip.rest_frames, last = clip->plants.frame_count - 1;
+    int frames = (int)floor((clip->motion.frame_count - 1 - rest) * dt * rate + 1e-6) + 1;
+    ff_status status = ff_pack_add_stream(content, &clip->pose, frames, rate, stream, error);
     if (status != FF_OK) return status;
     ff_pack_track *track = ff_array_grow(&content->tracks, 2 * (size_t)frames, sizeof *track);
     if (!track) return no_memory(error);
     for (int k = 0; k < frames; ++k) {
-        double at = rest + k / (rate * motion->frame_time);
-        ff_vec3 root, hips;
-        ff_quat local[FF_ROLE_JOINT_COUNT];
-        ff_motion_sample(motion, at, &root, &hips, local);
-        put3(frame[k].root, root);
-        put3(frame[k].hips, hips);
-        for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
-            ff_pack_quantise(local[r], rotation[(size_t)k * FF_ROLE_JOINT_COUNT + (size_t)r]);
-        int near = (int)floor(at + 0.5);
-        if (near > clip->plants.frame_count - 1) near = clip->plants.frame_count - 1;
+        int near = rest + (int)floor(k / (rate * dt) + 0.5);
+        if (near > last) near = last;
         for (int foot = 0; foot < 2; ++foot)
             put_track(&clip->plants.tracks[2 * near + foot], &track[2 * k + foot]);
     }

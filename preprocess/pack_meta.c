@@ -74,6 +74,12 @@ static json_t *found_plants(const ff_build_clip *clip)
     return list;
 }
 
+/* m, as in the pack: joints and points over all frames of the clip. */
+static json_t *error_entry(const ff_pose_error *error)
+{
+    return json_pack("{s:f, s:f, s:f}", "mean", error->mean, "p99", error->p99, "max", error->max);
+}
+
 static json_t *clip_entry(const ff_build_clip *clip, const ff_build_settings *settings)
 {
     char hash[20];
@@ -88,6 +94,10 @@ static json_t *clip_entry(const ff_build_clip *clip, const ff_build_settings *se
     if (entry && clip->repaired.count > 0) json_object_set_new(entry, "broken", breaks_of(clip));
     if (entry && settings->pack.motion.clean)
         json_object_set_new(entry, "clean", clean_entry(&clip->cleaned));
+    json_object_set_new(entry, "poses",
+                        json_pack("{s:f, s:o, s:o}", "bytes_per_second", clip->pose.bytes_per_second,
+                                  "quantised", error_entry(&clip->pose.quantised), "whole",
+                                  error_entry(&clip->pose.whole)));
     if (entry && clip->clip.warning_count > 0)
         json_object_set_new(entry, "warning", json_string(clip->clip.warning));
     return entry;

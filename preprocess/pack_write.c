@@ -2,7 +2,6 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
-#include "runtime/core/base/maths.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,8 +18,10 @@ static const struct section_kind {
     {FF_SECTION_JOINTS, sizeof(ff_pack_joint), offsetof(ff_pack_content, joints)},
     {FF_SECTION_POINTS, sizeof(ff_pack_point), offsetof(ff_pack_content, points)},
     {FF_SECTION_STREAMS, sizeof(ff_pack_stream), offsetof(ff_pack_content, streams)},
-    {FF_SECTION_FRAMES, sizeof(ff_pack_frame), offsetof(ff_pack_content, frames)},
-    {FF_SECTION_ROTATIONS, sizeof(int16_t[4]), offsetof(ff_pack_content, rotations)},
+    {FF_SECTION_REFERENCES, sizeof(ff_pack_reference), offsetof(ff_pack_content, references)},
+    {FF_SECTION_LANES, sizeof(ff_pack_lanes), offsetof(ff_pack_content, lanes)},
+    {FF_SECTION_KEYS, 1, offsetof(ff_pack_content, keys)},
+    {FF_SECTION_ROOTS, 3 * sizeof(float), offsetof(ff_pack_content, roots)},
     {FF_SECTION_CLIPS, sizeof(ff_pack_clip), offsetof(ff_pack_content, clips)},
     {FF_SECTION_PLANTS, sizeof(ff_pack_plant), offsetof(ff_pack_content, plants)},
     {FF_SECTION_ACTIONS, sizeof(ff_pack_action), offsetof(ff_pack_content, actions)},
@@ -80,13 +81,6 @@ ff_status ff_pack_set_meta(ff_pack_content *content, const char *json, ff_error 
     if (!copy) return ff_fail(error, FF_ERR_NO_MEMORY, "provenance of %zu bytes", length);
     memcpy(copy, json, length);
     return FF_OK;
-}
-
-void ff_pack_quantise(ff_quat q, int16_t out[4])
-{
-    const double part[4] = {q.x, q.y, q.z, q.w};
-    for (int i = 0; i < 4; ++i)
-        out[i] = (int16_t)floor(ff_clamp(part[i], -1.0, 1.0) * 32767.0 + 0.5);
 }
 
 static uint64_t align_up(uint64_t offset)

@@ -14,11 +14,8 @@ void ff_report_text(ff_text *page, const char *text);
 const char *ff_report_mode(uint32_t mode);
 const char *ff_report_colour(uint32_t mode);
 
-/* World positions of a pose of FRMS: the joints, then the points of the pack (joint_count + point_count). */
-void ff_report_pose(const ff_pack *pack, uint32_t frame, ff_vec3 *positions);
-
-/* The frame of FRMS nearest to a time of a clip (s, from the file's first pose). */
-uint32_t ff_report_frame(const ff_pack *pack, const ff_pack_clip *clip, double seconds);
+/* World positions of a stream's pose: the joints, then the points of the pack (joint_count + point_count). */
+void ff_report_pose(const ff_pack *pack, uint32_t stream, double seconds, ff_vec3 *positions);
 
 /* Heights and speeds of both feet over time, plants shaded, actions and rejections below. entry: what META says of
  * the clip, or NULL. */

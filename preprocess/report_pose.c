@@ -32,28 +32,17 @@ const char *ff_report_colour(uint32_t mode)
     return mode < FF_MODE_COUNT ? colours[mode] : "#000";
 }
 
-static ff_quat stored_rotation(const int16_t q[4])
-{
-    return ff_quat_unit((ff_quat){q[0], q[1], q[2], q[3]});
-}
-
-void ff_report_pose(const ff_pack *pack, uint32_t frame, ff_vec3 *positions)
+void ff_report_pose(const ff_pack *pack, uint32_t stream, double seconds, ff_vec3 *positions)
 {
     ff_quat world[FF_PACK_MAX_JOINTS];
-    const ff_pack_frame *f = &pack->frames[frame];
-    const int16_t(*local)[4] = pack->rotations + (size_t)frame * pack->joint_count;
-    ff_vec2 hips = ff_from_frame2(ff_fwd2((double)f->root[2]), ff_v2((double)f->hips[0], (double)f->hips[1]));
-    hips = ff_add2(hips, ff_v2((double)f->root[0], (double)f->root[1]));
-    for (uint32_t j = 0; j < pack->joint_count; ++j) {
+    ff_root_frame root;
+    ff_pack_sample(pack, stream, seconds, 0, &root, &positions[0], world, NULL);
+    ff_root_place(&root, &positions[0], &world[0]);
+    for (uint32_t j = 1; j < pack->joint_count; ++j) {
         int32_t parent = pack->joints[j].parent;
-        if (parent < 0) {
-            positions[j] = ff_ground(hips, (double)f->hips[2]);
-            world[j] = ff_quat_mul(ff_quat_yaw((double)f->root[2]), stored_rotation(local[j]));
-            continue;
-        }
         ff_vec3 offset = ff_pack_joint_offset(pack, j);
         positions[j] = ff_add3(positions[parent], ff_quat_rotate(world[parent], offset));
-        world[j] = ff_quat_mul(world[parent], stored_rotation(local[j]));
+        world[j] = ff_quat_mul(world[parent], world[j]);
     }
     for (uint32_t p = 0; p < pack->point_count; ++p) {
         const ff_pack_point *point = &pack->points[p];
@@ -61,11 +50,4 @@ void ff_report_pose(const ff_pack *pack, uint32_t frame, ff_vec3 *positions)
         positions[pack->joint_count + p] =
             ff_add3(positions[point->joint], ff_quat_rotate(world[point->joint], offset));
     }
-}
-
-uint32_t ff_report_frame(const ff_pack *pack, const ff_pack_clip *clip, double seconds)
-{
-    const ff_pack_stream *stream = &pack->streams[clip->stream];
-    double at = floor((seconds - (double)clip->time_offset) * (double)stream->rate + 0.5);
-    return stream->first_frame + (uint32_t)ff_clamp(at, 0.0, stream->frame_count - 1.0);
 }

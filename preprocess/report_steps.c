@@ -51,10 +51,10 @@ static double along(const side_view *v, ff_vec3 p)
     return ff_clamp(ff_dot2(v->axis, ff_sub2(ff_plane(p), v->origin)), -FARTHEST, FARTHEST);
 }
 
-static void draw_body(const side_view *v, uint32_t frame, double opacity)
+static void draw_body(const side_view *v, uint32_t stream, double seconds, double opacity)
 {
     ff_vec3 at[FF_PACK_MAX_JOINTS + FF_POINT_COUNT * 4];
-    ff_report_pose(v->pack, frame, at);
+    ff_report_pose(v->pack, stream, seconds, at);
     ff_text_add(v->page, "<g opacity=\"%.2f\">", opacity);
     for (size_t c = 0; c < sizeof body / sizeof *body; ++c) {
         ff_text_add(v->page, "<polyline class=\"%s\" points=\"", body[c].style);
@@ -95,13 +95,14 @@ static void describe(ff_text *page, const ff_pack_action *a)
 static void draw_action(ff_text *page, const ff_pack *pack, const ff_pack_clip *clip, uint32_t index)
 {
     const ff_pack_action *a = &pack->actions[index];
-    uint32_t first = ff_report_frame(pack, clip, (double)a->t_0),
-             last = ff_report_frame(pack, clip, (double)a->t_end);
-    const ff_pack_frame *f = &pack->frames[first];
+    double first = (double)a->t_0 - (double)clip->time_offset,
+           last = (double)a->t_end - (double)clip->time_offset;
+    ff_root_frame root;
+    ff_pack_sample(pack, clip->stream, first, 0, &root, NULL, NULL, NULL);
     /* The support foot's ball is the origin: root_start leads from it to the root. */
-    ff_vec2 axis = ff_fwd2((double)f->root[2]);
+    ff_vec2 axis = ff_fwd2(root.heading);
     ff_vec2 back = ff_from_frame2(axis, ff_v2((double)a->root_start[0], (double)a->root_start[1]));
-    side_view v = {page, pack, axis, ff_sub2(ff_v2((double)f->root[0], (double)f->root[1]), back), 0.0};
+    side_view v = {page, pack, axis, ff_sub2(root.position, back), 0.0};
     double from = (double)a->root_start[0], to = (double)a->root_end[0];
     v.left = ff_max(-FARTHEST, ff_min(from, to) - 0.35);
     double right = ff_min(FARTHEST, ff_max(from, to) + 0.35);
@@ -113,8 +114,8 @@ static void draw_action(ff_text *page, const ff_pack *pack, const ff_pack_clip *
         "<svg width=\"%.0f\" height=\"%d\"><line class=\"ground\" x1=\"0\" x2=\"%.0f\" y1=\"%d\" y2=\"%d\"/>",
         width, TALL, width, GROUND, GROUND);
     for (int k = 0; k < POSES; ++k) {
-        uint32_t frame = first + (uint32_t)((double)(last - first) * k / (POSES - 1) + 0.5);
-        draw_body(&v, frame, k == 0 || k == POSES - 1 ? 1.0 : 0.28);
+        draw_body(&v, clip->stream, ff_lerp(first, last, k / (POSES - 1.0)),
+                  k == 0 || k == POSES - 1 ? 1.0 : 0.28);
     }
     draw_foot_mark(&v, 0.0, a->support, "support foot");
     draw_foot_mark(&v, (double)a->land[0], a->swing, "where the swing foot lands");

@@ -26,7 +26,7 @@
 const ff_setting ff_setting_table[] = {
     SWITCH(motion, clean, FF_STAGE_CUT, true, "planted feet are made to stand still"),
     NUMBER(poses, rate, FF_STAGE_PACK, "Hz", FF_PACK_RATE, 10.0, 240.0,
-           "poses per second of the clips in the pack"),
+           "how often the report shows heights and speeds of feet"),
 };
 const int ff_setting_count = sizeof ff_setting_table / sizeof ff_setting_table[0];
 

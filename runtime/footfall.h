@@ -100,6 +100,32 @@ const char *ff_pack_joint_name(const ff_pack *pack, uint32_t joint); /* owned by
 int32_t ff_pack_joint_parent(const ff_pack *pack, uint32_t joint);   /* -1 = root */
 ff_vec3 ff_pack_joint_offset(const ff_pack *pack, uint32_t joint);   /* m, from the parent, rest pose */
 
+/* Every clip and every gait example is a stream of poses. */
+uint32_t ff_pack_stream_count(const ff_pack *pack);
+double ff_pack_stream_seconds(const ff_pack *pack, uint32_t stream); /* its length, or once round the cycle */
+int ff_pack_stream_cyclic(const ff_pack *pack, uint32_t stream); /* 1: goes on with its start after its end */
+uint32_t ff_pack_clip_count(const ff_pack *pack);
+const char *ff_pack_clip_name(const ff_pack *pack, uint32_t clip); /* owned by the pack */
+uint32_t ff_pack_clip_stream(const ff_pack *pack, uint32_t clip);
+
+/* Where a motion is on the ground: a point under the hips, smoothed, and the way the body faces. */
+typedef struct ff_root_frame {
+    ff_vec2 position; /* m, plane coordinates of the clip's world; (0, 0) all through a gait example */
+    double heading;   /* rad, goes on past full turns */
+} ff_root_frame;
+
+enum { FF_SAMPLE_MIRRORED = 1 }; /* flags: left and right exchanged */
+
+/* Pose of a stream at a time (s from its start; a cyclic one goes round, another stays at its ends). *hips: position of
+ * joint 0 in the root's frame (x left, y up from the ground, z ahead). rotations[joint_count]: local to the parent,
+ * joint 0 relative to the root's heading; of length 1 within 1e-6. Any of the three may be NULL. Costs the same at any
+ * time, remembers nothing, allocates nothing, the same bits everywhere; may be called from any number of threads. */
+ff_status ff_pack_sample(const ff_pack *pack, uint32_t stream, double time, uint32_t flags,
+                         ff_root_frame *root, ff_vec3 *hips, ff_quat *rotations, ff_error *error);
+
+/* From the root's frame into the world: *hips and *rotation of joint 0, as ff_crowd_agent_pose gives them. */
+void ff_root_place(const ff_root_frame *root, ff_vec3 *hips, ff_quat *rotation);
+
 /* ------------------------------------------------------------------------------------------------- crowds */
 
 typedef struct ff_crowd ff_crowd;

@@ -190,6 +190,8 @@ void ff_blend_space_destroy(ff_blend_space *space)
     if (!space) return;
     free(space->vertices);
     free(space->points);
+    free(space->hips);
+    free(space->rotations);
     free(space->solids);
     free(space->faces);
     free(space->cell_first);

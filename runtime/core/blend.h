@@ -41,6 +41,10 @@ struct ff_blend_space {
     uint32_t solid_count;
     ff_blend_face *faces; /* the outside of the solids, and simplices that are flat by themselves */
     uint32_t face_count;
+    /* Poses of the examples' frames, numbered as FEET is: decoded once, as every agent blends several of them twice a
+     * step. Rotations are 32767 (x, y, z, w): half the memory of floats, and so more of it near the processor. */
+    float (*hips)[3]; /* forward, left, height */
+    int16_t (*rotations)[FF_JOINT_COUNT][4];
     int32_t idle;         /* vertex index of the idle example (its rates are zero), or -1 */
     double neutral[2][3]; /* per foot: forward, left, yaw of its place under a standing body */
     /* Solids by cell of a coarse grid over their bounds: cell_first[cell] .. cell_first[cell + 1] in cell_solids. */

@@ -2,6 +2,7 @@
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 #include "runtime/core/blend.h"
+#include "runtime/core/pose_stream.h"
 
 #define IDLE_STEP_PERIOD 1.15 /* s: of steps taken where the blend is nearly idle (96 steps per minute) */
 
@@ -81,6 +82,40 @@ static void read_vertex(const ff_blend_space *space, const ff_pack_example *exam
     read_locks(example, vertex);
 }
 
+static void read_rotation(ff_quat q, int16_t out[4])
+{
+    const double part[4] = {q.x, q.y, q.z, q.w};
+    for (int i = 0; i < 4; ++i)
+        out[i] = (int16_t)floor(ff_clamp(part[i], -1.0, 1.0) * 32767.0 + 0.5);
+}
+
+/* The examples' frames come first of all frames. */
+static ff_status read_poses(ff_blend_space *space, ff_error *error)
+{
+    const ff_pack *pack = space->pack;
+    uint32_t frames = pack->foot_count / 2;
+    space->hips = ff_calloc(frames, sizeof *space->hips);
+    space->rotations = ff_calloc(frames, sizeof *space->rotations);
+    if (!space->hips || !space->rotations)
+        return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory preparing %u poses", frames);
+    for (uint32_t i = 0; i < pack->example_count; ++i) {
+        uint32_t index = pack->examples[i].stream;
+        const ff_pack_stream *stream = &pack->streams[index];
+        for (uint32_t k = 0; k < stream->frame_count; ++k) {
+            ff_vec3 hips;
+            ff_quat rotations[FF_JOINT_COUNT];
+            uint32_t frame = stream->first_frame + k;
+            ff_stream_pose(pack, index, (double)k / stream->frame_count, false, &hips, rotations);
+            space->hips[frame][0] = (float)hips.z;
+            space->hips[frame][1] = (float)hips.x;
+            space->hips[frame][2] = (float)hips.y;
+            for (int j = 0; j < FF_JOINT_COUNT; ++j)
+                read_rotation(rotations[j], space->rotations[frame][j]);
+        }
+    }
+    return FF_OK;
+}
+
 static double speed_of(ff_rates rates)
 {
     return ff_length3(ff_blend_point(rates));
@@ -135,5 +170,5 @@ ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)
             error, FF_ERR_NO_DATA,
             "the pack has no walking example: build it from clips with at least two strides in them");
     read_neutral(space);
-    return FF_OK;
+    return read_poses(space, error);
 }

@@ -72,7 +72,7 @@ ff_vec3 ff_sample_hips(const ff_blend_space *space, const ff_cursor *cursor)
     ff_vec3 hips = ff_v3(0.0, 0.0, 0.0);
     for (uint32_t i = 0; i < cursor->count; ++i)
         for (int k = 0; k < 2; ++k) {
-            const float *at = space->pack->frames[cursor->part[i].frame[k]].hips;
+            const float *at = space->hips[cursor->part[i].frame[k]];
             hips =
                 ff_madd3(hips, ff_v3((double)at[0], (double)at[1], (double)at[2]), cursor->part[i].weight[k]);
         }
@@ -86,8 +86,7 @@ ff_quat ff_sample_rotation(const ff_blend_space *space, const ff_cursor *cursor,
     ff_quat sum = {0.0, 0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < cursor->count; ++i)
         for (int k = 0; k < 2; ++k) {
-            const int16_t *q =
-                space->pack->rotations[(size_t)cursor->part[i].frame[k] * FF_JOINT_COUNT + (size_t)joint];
+            const int16_t *q = space->rotations[cursor->part[i].frame[k]][joint];
             double weight = cursor->part[i].weight[k];
             double side = sum.x * q[0] + sum.y * q[1] + sum.z * q[2] + sum.w * q[3];
             if (side < 0.0) weight = -weight;

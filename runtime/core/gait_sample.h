@@ -12,7 +12,7 @@ typedef struct ff_foot_sample {
 /* Where a blend's parts are in their streams: the work shared by everything sampled at one phase. */
 typedef struct ff_cursor {
     struct {
-        uint32_t frame[2]; /* into the pack's frames */
+        uint32_t frame[2]; /* of the examples' frames */
         double weight[2];
     } part[FF_BLEND_MAX];
     uint32_t count;

@@ -29,8 +29,10 @@ enum {
     JOINTS,
     POINTS,
     STREAMS,
-    FRAMES,
-    ROTATIONS,
+    REFERENCES,
+    LANES,
+    KEYS,
+    ROOTS,
     CLIPS,
     PLANTS,
     ACTIONS,
@@ -58,8 +60,10 @@ static const section_kind kinds[KIND_COUNT] = {
     [JOINTS] = {FF_SECTION_JOINTS, sizeof(ff_pack_joint), 1, 1},
     [POINTS] = {FF_SECTION_POINTS, sizeof(ff_pack_point), FF_POINT_COUNT, 1},
     [STREAMS] = {FF_SECTION_STREAMS, sizeof(ff_pack_stream), 1, 1},
-    [FRAMES] = {FF_SECTION_FRAMES, sizeof(ff_pack_frame), 1, 1},
-    [ROTATIONS] = {FF_SECTION_ROTATIONS, 4 * sizeof(int16_t), 1, 1},
+    [REFERENCES] = {FF_SECTION_REFERENCES, sizeof(ff_pack_reference), 1, 1},
+    [LANES] = {FF_SECTION_LANES, sizeof(ff_pack_lanes), 1, 1},
+    [KEYS] = {FF_SECTION_KEYS, 1, FF_STREAM_SLACK, 1},
+    [ROOTS] = {FF_SECTION_ROOTS, 3 * sizeof(float), 0, 0},
     [CLIPS] = {FF_SECTION_CLIPS, sizeof(ff_pack_clip), 0, 0},
     [PLANTS] = {FF_SECTION_PLANTS, sizeof(ff_pack_plant), 0, 0},
     [ACTIONS] = {FF_SECTION_ACTIONS, sizeof(ff_pack_action), 0, 0},
@@ -200,11 +204,17 @@ static void take_views(ff_pack *pack, const section_view *views)
     pack->points = (const ff_pack_point *)(const void *)views[POINTS].data;
     pack->point_count = (uint32_t)views[POINTS].count;
     pack->streams = (const ff_pack_stream *)(const void *)views[STREAMS].data;
-    pack->stream_count = (uint32_t)views[STREAMS].count;
-    pack->frames = (const ff_pack_frame *)(const void *)views[FRAMES].data;
-    pack->frame_count = (uint32_t)views[FRAMES].count;
-    pack->rotations = (const int16_t(*)[4])(const void *)views[ROTATIONS].data;
-    pack->rotation_count = (uint32_t)views[ROTATIONS].count;
+    pack->stream_count = (uint32_t)views[STREAMS].count; /* at least 1 */
+    const ff_pack_stream *last = &pack->streams[pack->stream_count - 1];
+    pack->frame_count = last->first_frame + last->frame_count;
+    pack->references = (const ff_pack_reference *)(const void *)views[REFERENCES].data;
+    pack->reference_count = (uint32_t)views[REFERENCES].count;
+    pack->lanes = (const ff_pack_lanes *)(const void *)views[LANES].data;
+    pack->lanes_count = (uint32_t)views[LANES].count;
+    pack->keys = views[KEYS].data;
+    pack->key_bytes = (uint32_t)views[KEYS].count;
+    pack->roots = (const float(*)[3])(const void *)views[ROOTS].data;
+    pack->root_count = (uint32_t)views[ROOTS].count;
     pack->clips = (const ff_pack_clip *)(const void *)views[CLIPS].data;
     pack->clip_count = (uint32_t)views[CLIPS].count;
     pack->plants = (const ff_pack_plant *)(const void *)views[PLANTS].data;

@@ -20,10 +20,15 @@ struct ff_pack {
     uint32_t point_count;
     const ff_pack_stream *streams;
     uint32_t stream_count;
-    const ff_pack_frame *frames;
-    uint32_t frame_count;
-    const int16_t (*rotations)[4]; /* [frame_count][joint_count] */
-    uint32_t rotation_count;       /* frame_count * joint_count */
+    const ff_pack_reference *references; /* [stream_count] */
+    uint32_t reference_count;
+    const ff_pack_lanes *lanes;
+    uint32_t lanes_count; /* blocks of eight */
+    const unsigned char *keys;
+    uint32_t key_bytes;
+    const float (*roots)[3];
+    uint32_t root_count;
+    uint32_t frame_count; /* of all streams */
     const ff_pack_clip *clips;
     uint32_t clip_count;
     const ff_pack_plant *plants;

@@ -4,7 +4,6 @@
 #include "runtime/core/joints.h"
 
 #define LIMIT_BODY 10.0f  /* m: no bone or radius is longer */
-#define LIMIT_PLACE 1e6f  /* m, rad: no root is further out */
 #define LIMIT_SPEED 50.0f /* m/s, rad/s */
 
 static ff_status check_strings(const ff_pack *pack, ff_error *error)
@@ -69,46 +68,6 @@ static ff_status check_skeleton(const ff_pack *pack, ff_error *error)
     return FF_OK;
 }
 
-static ff_status check_streams(const ff_pack *pack, ff_error *error)
-{
-    for (uint32_t i = 0; i < pack->stream_count; ++i) {
-        const ff_pack_stream *stream = &pack->streams[i];
-        if (stream->frame_count == 0 ||
-            !ff_pack_range_fits(stream->first_frame, stream->frame_count, pack->frame_count))
-            return FF_PACK_REFUSE("STRM", stream, "stream %u: frames %u + %u of %u", i, stream->first_frame,
-                                  stream->frame_count, pack->frame_count);
-        if (!(stream->rate >= 1.0f && stream->rate <= 1000.0f))
-            return FF_PACK_REFUSE("STRM", &stream->rate, "stream %u: %g frames per second", i,
-                                  (double)stream->rate);
-        if (stream->flags & ~(uint32_t)FF_STREAM_CYCLIC)
-            return FF_PACK_REFUSE("STRM", &stream->flags, "stream %u: unknown flags %x", i, stream->flags);
-    }
-    return FF_OK;
-}
-
-static ff_status check_frames(const ff_pack *pack, ff_error *error)
-{
-    for (uint32_t i = 0; i < pack->frame_count; ++i) {
-        const float *wild = ff_pack_wild_float(pack->frames[i].root, 3, LIMIT_PLACE);
-        if (!wild) wild = ff_pack_wild_float(pack->frames[i].hips, 3, LIMIT_BODY);
-        if (wild) return FF_PACK_REFUSE("FRMS", wild, "frame %u: %g", i, (double)*wild);
-    }
-    if (pack->rotation_count != (uint64_t)pack->frame_count * pack->joint_count)
-        return FF_PACK_REFUSE("ROTS", pack->rotations, "%u rotations for %u frames of %u joints",
-                              pack->rotation_count, pack->frame_count, pack->joint_count);
-    /* Unit length within 3 %, so that blending never divides by nothing. */
-    const int64_t unit = 32767 * 32767, slack = unit / 16;
-    for (uint32_t i = 0; i < pack->rotation_count; ++i) {
-        const int16_t *q = pack->rotations[i];
-        int64_t length =
-            (int64_t)q[0] * q[0] + (int64_t)q[1] * q[1] + (int64_t)q[2] * q[2] + (int64_t)q[3] * q[3];
-        if (length < unit - slack || length > unit + slack)
-            return FF_PACK_REFUSE("ROTS", q, "rotation of joint %u in frame %u is not a unit quaternion",
-                                  i % pack->joint_count, i / pack->joint_count);
-    }
-    return FF_OK;
-}
-
 static ff_status check_example_phases(const ff_pack *pack, uint32_t index, ff_error *error)
 {
     const ff_pack_example *example = &pack->examples[index];
@@ -156,6 +115,9 @@ static ff_status check_example(const ff_pack *pack, uint32_t index, uint32_t fir
     if (!(fabs(frames - (double)stream->frame_count) <= 0.01 * (double)stream->frame_count))
         return FF_PACK_REFUSE("EXMP", &example->period, "example %u: %g s at %g Hz are not its %u frames",
                               index, (double)example->period, (double)stream->rate, stream->frame_count);
+    if (!(fabs((double)stream->seconds - (double)example->period) <= 0.01 * (double)example->period))
+        return FF_PACK_REFUSE("STRM", &stream->seconds, "example %u: a cycle of %g s, its stream takes %g s",
+                              index, (double)example->period, (double)stream->seconds);
     const float rates[3] = {example->v_forward, example->v_left, example->turn_rate};
     if (ff_pack_wild_float(rates, 3, LIMIT_SPEED) || ff_pack_wild_float(&example->seam, 1, LIMIT_BODY))
         return FF_PACK_REFUSE("EXMP", &example->v_forward, "example %u: rates %g m/s, %g m/s, %g rad/s",
@@ -229,8 +191,8 @@ static ff_status check_hull(const ff_pack *pack, ff_error *error)
 ff_status ff_pack_check(const ff_pack *pack, ff_error *error)
 {
     static ff_status (*const checks[])(const ff_pack *, ff_error *) = {
-        check_strings,   check_skeleton, check_streams,       check_frames,      check_examples,
-        check_simplices, check_hull,     ff_pack_check_clips, ff_pack_check_gait};
+        check_strings,   check_skeleton, ff_pack_check_streams, check_examples,
+        check_simplices, check_hull,     ff_pack_check_clips,   ff_pack_check_gait};
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; ++i) {
         ff_status status = checks[i](pack, error);
         if (status != FF_OK) return status;

@@ -7,6 +7,9 @@
 /* The section views of pack are set and lie inside the file. Checks every index, count, name, order and number. */
 ff_status ff_pack_check(const ff_pack *pack, ff_error *error);
 
+/* Streams with their lanes, keys, roots and references (pack_check_streams.c). */
+ff_status ff_pack_check_streams(const ff_pack *pack, ff_error *error);
+
 /* Clips, plants, actions and colliders (pack_check_clips.c). */
 ff_status ff_pack_check_clips(const ff_pack *pack, ff_error *error);
 

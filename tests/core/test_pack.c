@@ -130,8 +130,8 @@ static const bad_field bad_fields[] = {
     {0, offsetof(ff_pack_header, file_size), 8, UINT64_MAX, FF_ERR_PARSE},
     {0, offsetof(ff_pack_header, section_count), 4, UINT32_MAX, FF_ERR_PARSE},
     {0, offsetof(ff_pack_header, section_count), 4, 3, FF_ERR_PARSE},
-    {FF_SECTION_FRAMES, offsetof(ff_pack_section, tag), 4, FF_SECTION_ROTATIONS, FF_ERR_PARSE},
-    {FF_SECTION_FRAMES, offsetof(ff_pack_section, tag), 4, FF_TAG('E', 'V', 'I', 'L'), FF_ERR_PARSE},
+    {FF_SECTION_LANES, offsetof(ff_pack_section, tag), 4, FF_SECTION_KEYS, FF_ERR_PARSE},
+    {FF_SECTION_LANES, offsetof(ff_pack_section, tag), 4, FF_TAG('E', 'V', 'I', 'L'), FF_ERR_PARSE},
     {FF_SECTION_JOINTS, offsetof(ff_pack_section, stride), 4, 1, FF_ERR_PARSE},
     {FF_SECTION_JOINTS, offsetof(ff_pack_section, count), 8, UINT64_MAX / 24 + 2, FF_ERR_RANGE},
     {FF_SECTION_JOINTS, offsetof(ff_pack_section, count), 8, 0, FF_ERR_RANGE},
@@ -168,6 +168,8 @@ typedef struct bad_record {
 #define NAN_WORD 0x7fc00000u
 #define HUGE_WORD 0x7f000000u /* 1.7e38 */
 #define MINUS_ONE 0xffffffffu
+#define FIRST_LEVEL offsetof(ff_pack_stream, level)
+#define CLIP_STREAM 28 /* behind the small grid's 27 walks and its idle example */
 
 static const bad_record bad_records[] = {
     {FF_SECTION_STRINGS, 0, 0, MINUS_ONE},
@@ -185,9 +187,29 @@ static const bad_record bad_records[] = {
     {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, frame_count), 0},
     {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, rate), NAN_WORD},
     {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, flags), 0},
-    {FF_SECTION_FRAMES, 0, offsetof(ff_pack_frame, root), NAN_WORD},
-    {FF_SECTION_FRAMES, 3, offsetof(ff_pack_frame, hips), HUGE_WORD},
-    {FF_SECTION_ROTATIONS, 9, 0, 0x80008000u},
+    {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, flags), 2},
+    {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, seconds), NAN_WORD},
+    {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, seconds), 0},
+    {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, seconds), HUGE_WORD},
+    {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, first_lanes), MINUS_ONE},
+    {FF_SECTION_STREAMS, 0, offsetof(ff_pack_stream, still), MINUS_ONE},
+    {FF_SECTION_STREAMS, 0, FIRST_LEVEL + offsetof(ff_pack_level, first_byte), MINUS_ONE},
+    {FF_SECTION_STREAMS, 0, FIRST_LEVEL + offsetof(ff_pack_level, intervals), MINUS_ONE},
+    {FF_SECTION_STREAMS, 0, FIRST_LEVEL + offsetof(ff_pack_level, intervals), 0},
+    {FF_SECTION_STREAMS, 0, FIRST_LEVEL + offsetof(ff_pack_level, wide), MINUS_ONE},
+    {FF_SECTION_STREAMS, CLIP_STREAM, offsetof(ff_pack_stream, first_root), MINUS_ONE},
+    {FF_SECTION_STREAMS, CLIP_STREAM, offsetof(ff_pack_stream, root_intervals), MINUS_ONE},
+    {FF_SECTION_REFERENCES, 0, 0, NAN_WORD},
+    {FF_SECTION_REFERENCES, 1, offsetof(ff_pack_reference, w), 0},
+    {FF_SECTION_LANES, 0, offsetof(ff_pack_lanes, base), NAN_WORD},
+    {FF_SECTION_LANES, 0, offsetof(ff_pack_lanes, scale), HUGE_WORD},
+    {FF_SECTION_LANES, 0, offsetof(ff_pack_lanes, scale) + 4, NAN_WORD},
+    {FF_SECTION_LANES, 0, offsetof(ff_pack_lanes, slot), 96},
+    {FF_SECTION_LANES, 0, offsetof(ff_pack_lanes, slot), FF_STREAM_HIPS + 1},
+    {FF_SECTION_LANES, 0, offsetof(ff_pack_lanes, slot), 3 * FF_STREAM_SLOTS + FF_STREAM_HIPS},
+    {FF_SECTION_KEYS, 0, 0, 0x12345678u}, /* the first key of a cycle, but not the one that closes it */
+    {FF_SECTION_ROOTS, 0, 0, NAN_WORD},
+    {FF_SECTION_ROOTS, 1, 8, HUGE_WORD},
     {FF_SECTION_CLIPS, 0, offsetof(ff_pack_clip, tags), 1u << 30},
     {FF_SECTION_CLIPS, 0, offsetof(ff_pack_clip, stream), 1000},
     {FF_SECTION_CLIPS, 0, offsetof(ff_pack_clip, first_plant), MINUS_ONE},

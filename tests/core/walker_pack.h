@@ -3,7 +3,7 @@
 #ifndef FF_TEST_WALKER_PACK_H
 #define FF_TEST_WALKER_PACK_H
 
-#include "preprocess/pack_write.h"
+#include "preprocess/pose_encode.h"
 #include "runtime/core/joints.h"
 #include "runtime/core/leg_ik.h"
 #include "runtime/core/synth.h"
@@ -142,10 +142,29 @@ static inline void ff_walker_leg(ff_vec3 hips, ff_walker_foot at, int foot, ff_q
     rotations[j + 2] = ff_quat_mul(ff_quat_conj(leg.shank), turn);
 }
 
-static inline void ff_walker_frame(ff_pack_content *content, ff_rates rates, double period, double fraction,
-                                   bool idle)
+#define FF_WALKER_MOST_FRAMES 256
+
+/* The poses of one example. */
+typedef struct ff_walker_poses {
+    ff_vec3 hips[FF_WALKER_MOST_FRAMES];
+    ff_quat rotations[FF_WALKER_MOST_FRAMES][FF_JOINT_COUNT];
+} ff_walker_poses;
+
+static inline uint32_t ff_walker_stream(ff_pack_content *content, const ff_pose_motion *motion)
 {
-    ff_quat rotations[FF_JOINT_COUNT];
+    ff_pose_coded coded;
+    uint32_t index;
+    if (ff_pose_encode(content->joints.data, content->points.data, motion, &coded, NULL) != FF_OK ||
+        ff_pack_add_stream(content, &coded, motion->frame_count, 1.0 / motion->frame_time, &index, NULL) !=
+            FF_OK)
+        abort();
+    ff_pose_coded_free(&coded);
+    return index;
+}
+
+static inline void ff_walker_frame(ff_pack_content *content, ff_rates rates, double period, double fraction,
+                                   bool idle, ff_vec3 *hips_out, ff_quat *rotations)
+{
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
         rotations[j] = FF_QUAT_IDENTITY;
     double pace = idle ? 0.0 : ff_min(fabs(rates.forward), 1.5);
@@ -162,13 +181,9 @@ static inline void ff_walker_frame(ff_pack_content *content, ff_rates rates, dou
         rotations[shoulder] =
             ff_quat_mul(ff_quat_axis(ff_v3(1, 0, 0), swing), ff_quat_axis(ff_v3(0, 0, 1), -side * 1.45));
     }
-    ff_pack_frame *frame = ff_walker_push(&content->frames, 1, sizeof *frame);
-    frame->hips[0] = (float)hips.z;
-    frame->hips[1] = (float)hips.x;
-    frame->hips[2] = (float)hips.y;
-    int16_t(*out)[4] = ff_walker_push(&content->rotations, FF_JOINT_COUNT, sizeof *out);
+    *hips_out = ff_v3(hips.z, hips.x, hips.y);
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
-        ff_pack_quantise(ff_quat_unit(rotations[j]), out[j]);
+        rotations[j] = ff_quat_unit(rotations[j]);
 }
 
 static inline void ff_walker_example(ff_pack_content *content, const ff_walker_grid *grid, ff_rates rates,
@@ -179,11 +194,17 @@ static inline void ff_walker_example(ff_pack_content *content, const ff_walker_g
                                0.2 * (fabs(rates.left) + 0.5 * fabs(rates.turn));
     uint32_t frames = (uint32_t)(wanted * grid->rate + 0.5);
     double period = frames / grid->rate;
-    ff_pack_stream *stream = ff_walker_push(&content->streams, 1, sizeof *stream);
-    *stream = (ff_pack_stream){(uint32_t)content->frames.count, frames, (float)grid->rate, FF_STREAM_CYCLIC};
+    static ff_walker_poses poses;
+    for (uint32_t i = 0; i < frames; ++i)
+        ff_walker_frame(content, rates, period, (double)i / frames, idle, &poses.hips[i], poses.rotations[i]);
+    ff_pose_motion motion = {.frame_count = (int)frames,
+                             .frame_time = 1.0 / grid->rate,
+                             .cyclic = true,
+                             .hips = poses.hips,
+                             .rotations = poses.rotations[0]};
     ff_pack_example *example = ff_walker_push(&content->examples, 1, sizeof *example);
     example->name = ff_pack_add_string(content, idle ? "idle" : "walk");
-    example->stream = (uint32_t)content->streams.count - 1;
+    example->stream = ff_walker_stream(content, &motion);
     example->gait = FF_GAIT_WALK;
     example->flags = idle ? FF_EXAMPLE_IDLE : FF_EXAMPLE_DERIVED;
     example->period = (float)period;
@@ -194,8 +215,6 @@ static inline void ff_walker_example(ff_pack_content *content, const ff_walker_g
     memcpy(example->key, keys[idle], sizeof example->key);
     static const float locks[2][2][2] = {{{0.08f, 0.57f}, {0.58f, 0.07f}}, {{0.0f, -1.0f}, {0.0f, -1.0f}}};
     memcpy(example->lock, locks[idle], sizeof example->lock);
-    for (uint32_t i = 0; i < frames; ++i)
-        ff_walker_frame(content, rates, period, (double)i / frames, idle);
 }
 
 static inline int32_t ff_walker_index(const ff_walker_grid *grid, const int at[3])
@@ -226,15 +245,16 @@ static inline void ff_walker_cell(ff_pack_content *content, const ff_walker_grid
 static inline void ff_walker_clip(ff_pack_content *content)
 {
     uint32_t name = ff_pack_add_string(content, "clip");
-    ff_pack_stream *stream = ff_walker_push(&content->streams, 1, sizeof *stream);
-    *stream = (ff_pack_stream){(uint32_t)content->frames.count, 2, 60.0f, 0};
-    ff_walker_push(&content->frames, 2, sizeof(ff_pack_frame));
-    int16_t(*rotation)[4] = ff_walker_push(&content->rotations, 2 * FF_JOINT_COUNT, sizeof *rotation);
+    const ff_vec3 root[2] = {{0.0, 0.0, 0.0}, {0.02, 0.0, 0.01}},
+                  hips[2] = {{0.0, 0.0, 0.9}, {0.0, 0.0, 0.9}};
+    ff_quat rotations[2 * FF_JOINT_COUNT];
     for (int j = 0; j < 2 * FF_JOINT_COUNT; ++j)
-        rotation[j][3] = 32767;
+        rotations[j] = FF_QUAT_IDENTITY;
+    ff_pose_motion motion = {
+        .frame_count = 2, .frame_time = 1.0 / 60.0, .root = root, .hips = hips, .rotations = rotations};
     ff_pack_clip *clip = ff_walker_push(&content->clips, 1, sizeof *clip);
     *clip = (ff_pack_clip){.name = name,
-                           .stream = (uint32_t)content->streams.count - 1,
+                           .stream = ff_walker_stream(content, &motion),
                            .plant_count = 1,
                            .action_count = 1,
                            .source_rate = 120.0f};

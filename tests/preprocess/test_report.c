@@ -116,10 +116,7 @@ static void poses_are_those_of_people(void **state)
     ff_vec3 at[FF_PACK_MAX_JOINTS + FF_POINT_COUNT];
     for (uint32_t c = 0; c < p.pack->clip_count; c += 5) {
         const ff_pack_clip *clip = &p.pack->clips[c];
-        const ff_pack_stream *stream = &p.pack->streams[clip->stream];
-        assert_int_equal(ff_report_frame(p.pack, clip, -1.0), stream->first_frame);
-        assert_int_equal(ff_report_frame(p.pack, clip, 1e6), stream->first_frame + stream->frame_count - 1);
-        ff_report_pose(p.pack, ff_report_frame(p.pack, clip, (double)clip->time_offset + 0.5), at);
+        ff_report_pose(p.pack, clip->stream, 0.5, at);
         const ff_vec3 *point = at + p.pack->joint_count;
         assert_true(point[FF_POINT_HEAD_TOP].y > 1.0 && point[FF_POINT_HEAD_TOP].y < 2.2);
         FF_ASSERT_BELOW(ff_min(point[FF_POINT_TOE_L].y, point[FF_POINT_TOE_R].y), 0.4);
