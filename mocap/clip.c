@@ -1,5 +1,7 @@
 #include "mocap/clip.h"
 
+#include "runtime/core/base/fail.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,4 +54,22 @@ int ff_clip_find(const ff_clip *clip, ff_role role)
     for (int j = 0; j < clip->joint_count; ++j)
         if (clip->joints[j].role == role) return j;
     return -1;
+}
+
+ff_status ff_clip_keep(ff_clip *clip, int first, int last, ff_error *error)
+{
+    if (last < 0) last = clip->frame_count - 1;
+    if (first == 0 && last == clip->frame_count - 1) return FF_OK;
+    if (first > last || last >= clip->frame_count)
+        return ff_fail(error, FF_ERR_RANGE, "trim keeps frames %d to %d, but the file has frames 0 to %d",
+                       first, last, clip->frame_count - 1);
+    size_t joints = (size_t)clip->joint_count, tracks = (size_t)clip->track_count,
+           n = (size_t)last - (size_t)first + 1;
+    memmove(clip->rotations, clip->rotations + (size_t)first * joints, n * joints * sizeof *clip->rotations);
+    if (tracks)
+        memmove(clip->positions, clip->positions + (size_t)first * tracks,
+                n * tracks * sizeof *clip->positions);
+    clip->frame_count = last - first + 1;
+    clip->rest_frames = clip->rest_frames > first ? clip->rest_frames - first : 0;
+    return FF_OK;
 }

@@ -49,6 +49,9 @@ void ff_clip_pose(const ff_clip *clip, int frame, ff_vec3 *positions, ff_quat *r
 /* The rest pose: local rotations identity, roots at their offsets. */
 void ff_clip_rest_pose(const ff_clip *clip, ff_vec3 *positions);
 
+/* Keep frames first to last (-1 = to the end) only. */
+ff_status ff_clip_keep(ff_clip *clip, int first, int last, ff_error *error);
+
 /* First joint that plays role, or -1. */
 int ff_clip_find(const ff_clip *clip, ff_role role);
 

@@ -28,25 +28,6 @@ void ff_build_clip_free(ff_build_clip *clip)
     memset(clip, 0, sizeof *clip);
 }
 
-/* Keep frames first to last (-1 = to the end) of the clip. */
-static ff_status trim(ff_clip *clip, int first, int last, ff_error *error)
-{
-    if (last < 0) last = clip->frame_count - 1;
-    if (first == 0 && last == clip->frame_count - 1) return FF_OK;
-    if (first > last || last >= clip->frame_count)
-        return ff_fail(error, FF_ERR_RANGE, "trim keeps frames %d to %d, but the file has frames 0 to %d",
-                       first, last, clip->frame_count - 1);
-    size_t joints = (size_t)clip->joint_count, tracks = (size_t)clip->track_count,
-           n = (size_t)last - (size_t)first + 1;
-    memmove(clip->rotations, clip->rotations + (size_t)first * joints, n * joints * sizeof *clip->rotations);
-    if (tracks)
-        memmove(clip->positions, clip->positions + (size_t)first * tracks,
-                n * tracks * sizeof *clip->positions);
-    clip->frame_count = last - first + 1;
-    clip->rest_frames = clip->rest_frames > first ? clip->rest_frames - first : 0;
-    return FF_OK;
-}
-
 void ff_build_clip_begin(ff_build_clip *clip, const ff_catalogue_entry *entry, int index)
 {
     clip->entry = entry;
@@ -88,7 +69,7 @@ static ff_status read_frames(const ff_build_clip *clip, ff_clip *out, ff_breaks 
     memset(repaired, 0, sizeof *repaired);
     if (!entry) return generate(clip, out, error);
     ff_status status = ff_clip_load(entry->path, &entry->options, out, error);
-    if (status == FF_OK) status = trim(out, entry->trim_first, entry->trim_last, error);
+    if (status == FF_OK) status = ff_clip_keep(out, entry->trim_first, entry->trim_last, error);
     if (status == FF_OK) status = ff_breaks_repair(out, repaired, error);
     if (status != FF_OK) ff_clip_free(out);
     return status;

@@ -3,6 +3,7 @@
 #include "mocap/generator/generator.h"
 #include "preprocess/build.h"
 #include "preprocess/clean_command.h"
+#include "preprocess/import_command.h"
 #include "preprocess/plants_command.h"
 #include "preprocess/report.h"
 #include "preprocess/settings.h"
@@ -14,6 +15,7 @@
 static const ff_subcommand commands[] = {
     {"build", "make a motion pack from clips", ff_build_command},
     {"config", "print every setting of build", ff_config_command},
+    {"import", "bring clips into one form and say what they are", ff_import_command},
     {"inspect", "say what is in a motion pack", ff_inspect_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
     {"steps", "how clips are walked, in numbers", ff_steps_command},

@@ -147,6 +147,17 @@ a_killed_build_leaves_the_old_pack_or_the_new_one_whole() {
     ! ls "$work/killed/x.ffpack.cache" | grep -E '\..*\.'
 }
 
+import_writes_clips_that_give_the_same_plants() {
+    run 0 "$pack" import "$clips" -o "$work/imported" --quiet && says out "$(basename "$one" .bvh)" && silent err || return 1
+    [ "$(ls "$work/imported" | wc -l)" -eq "$(ls "$clips" | wc -l)" ] || return 1
+    run 0 "$pack" plants "$clips/$one" --csv && cp "$work/out" "$work/plants.csv"
+    run 0 "$pack" plants "$work/imported/$one" --csv && same "$work/plants.csv" "$work/out"
+}
+import_only_looks_without_a_folder_and_names_what_it_cannot_read() {
+    run 1 "$pack" import "$work/mixed" --json --quiet && says out '"leg": 0.8' && says out '"missing": []' &&
+        says err "footfall-pack: $work/mixed/broken.bvh" && [ "$(wc -l <"$work/err")" -eq 4 ]
+}
+
 test_that "a second build reuses everything and gives the same bytes" a_second_build_reuses_everything_and_gives_the_same_bytes
 test_that "threads change nothing" threads_change_nothing
 test_that "a changed clip alone is worked out again" a_changed_clip_alone_is_worked_out_again
@@ -162,4 +173,6 @@ test_that "bad clips are listed at the end and the status says so" bad_clips_are
 test_that "a strict build stops at the first and writes nothing" a_strict_build_stops_at_the_first_and_writes_nothing
 test_that "a full disk leaves the old pack whole" a_full_disk_leaves_the_old_pack_whole
 test_that "a killed build leaves the old pack or the new one whole" a_killed_build_leaves_the_old_pack_or_the_new_one_whole
+test_that "import writes clips that give the same plants" import_writes_clips_that_give_the_same_plants
+test_that "import only looks without a folder, and names what it cannot read" import_only_looks_without_a_folder_and_names_what_it_cannot_read
 finish
