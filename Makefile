@@ -41,7 +41,12 @@ CXXFLAGS_ALL := -std=c++17 -Wall -Wextra -Wshadow -Werror $(common) -isystem /us
 LDFLAGS_ALL  := -pthread -Wl,--as-needed $(flags_$(config)) $(LDFLAGS)
 
 opencv := -lopencv_imgcodecs -lopencv_imgproc -lopencv_core
-libs   := -ljansson -ltinygltf $(opencv) -lceres -lglog -lxxhash -lm
+# Optional: a peer for one bench (runtime/export/detour.h).
+ifneq ($(wildcard /usr/include/recastnavigation/DetourCrowd.h),)
+CXXFLAGS_ALL += -DFF_HAVE_DETOUR
+detour := -lDetourCrowd -lDetour
+endif
+libs   := -ljansson -ltinygltf $(opencv) $(detour) -lceres -lglog -lxxhash -lm
 
 # The version stands in the public header alone. The first number is the shared library's: it changes when programs
 # built before would no longer run.

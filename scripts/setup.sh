@@ -6,7 +6,7 @@
 set -eu
 
 packages="gcc g++ make pkg-config clang libclang-rt-14-dev
-    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libtinygltf-dev
+    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libtinygltf-dev librecast-dev
     libceres-dev libjansson-dev libxxhash-dev libcmocka-dev"
 [ "${1:-}" != lint ] || packages="$packages clang-format clang-tidy cppcheck"
 # Not needed, but a test of the installed CMake file is skipped without it: cmake.
