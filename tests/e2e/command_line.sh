@@ -2,10 +2,6 @@
 . tests/e2e/lib.sh
 
 version=$(sed -n 's/^#define FF_VERSION "\(.*\)"/\1/p' runtime/footfall.h)
-commands_of() { # PROGRAM
-    "$1" --help | sed -n '/^commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'
-}
-
 version_and_help_are_answered() {
     for program in "$pack" "$crowd"; do
         name=$(basename "$program")
@@ -16,12 +12,13 @@ version_and_help_are_answered() {
 }
 every_command_has_help_with_aligned_options() {
     for program in "$pack" "$crowd"; do
-        for command in $(commands_of "$program"); do
-            run 0 "$program" "$command" --help && silent err && says out "usage: $(basename "$program") $command" || return 1
+        for path in $(commands_of "$program"); do
+            command=$(echo "$path" | tr / ' ')
+            run 0 "$program" $command --help && silent err && says out "usage: $(basename "$program") $command" || return 1
             # The help texts of one command begin in one column.
             columns=$(sed -n '/^options:/,/^$/s/^\(  -.*[^ ]  \)[^ -].*/\1/p' "$work/out" | awk '{ print length($0) }' | sort -u | wc -l)
             [ "$columns" -eq 1 ] || { echo "options of $command are not aligned" && cat "$work/out" && return 1; }
-            run 0 "$program" "$command" --version && says out "$version" || return 1
+            run 0 "$program" $command --version && says out "$version" || return 1
         done
     done
 }
@@ -30,10 +27,11 @@ usage_errors_leave_with_2_and_name_the_way_on() {
         name=$(basename "$program")
         run 2 "$program" && silent out && says err "usage: $name" || return 1
         run 2 "$program" nonsense && silent out && says err "$name: unknown command 'nonsense'; try '$name --help'" || return 1
-        for command in $(commands_of "$program"); do
-            run 2 "$program" "$command" --no-such-option && silent out &&
-                says err "$name: unknown option '--no-such-option'" && says err "try '$name $command --help'" || return 1
-            run 2 "$program" "$command" --helq && says err "did you mean '--help'?" || return 1
+        for path in $(commands_of "$program"); do
+            command=$(echo "$path" | tr / ' ')
+            run 2 "$program" $command --no-such-option && silent out &&
+                says err ": unknown option '--no-such-option'" && says err "try '$name $command --help'" || return 1
+            run 2 "$program" $command --helq && says err "did you mean '--help'?" || return 1
         done
     done
 }

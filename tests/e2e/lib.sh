@@ -60,6 +60,15 @@ silent() {
     return 1
 }
 
+# commands_of PROGRAM: its commands, one a line; a command of a group as GROUP/COMMAND (words: $(echo x/y | tr / ' '))
+commands_of() {
+    for command in $("$1" --help | sed -n '/^commands:/,/^$/s/^  \([a-z0-9-]*\) .*/\1/p'); do
+        inner=$("$1" "$command" --help | sed -n '/^commands:/,/^$/s/^  \([a-z0-9-]*\) .*/\1/p')
+        [ -n "$inner" ] || echo "$command"
+        for name in $inner; do echo "$command/$name"; done
+    done
+}
+
 # Every script ends with this.
 finish() {
     echo "[==========] $((passed + failed + skipped)) test(s) run."

@@ -90,9 +90,10 @@ every_option_is_in_the_man_page() {
     result=0
     for program in footfall-pack footfall-crowd; do
         page=$tree$prefix/share/man/man1/$program.1
-        for command in $("$FF_BUILD/$program" --help | sed -n '/^commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'); do
+        for path in $(commands_of "$FF_BUILD/$program"); do
+            command=$(echo "$path" | tr / ' ')
             grep -q "$command" "$page" || { echo "$page does not name the command $command" && result=1; }
-            for option in $("$FF_BUILD/$program" "$command" --help | sed -n 's/^  \(-.*\)/\1/p' | grep -oE -- '--[a-z-]+' | sort -u); do
+            for option in $("$FF_BUILD/$program" $command --help | sed -n 's/^  \(-.*\)/\1/p' | grep -oE -- '--[a-z-]+' | sort -u); do
                 sed 's/\\-/-/g' "$page" | grep -q -- "$option" ||
                     { echo "$page does not name $command $option" && result=1; }
             done
