@@ -212,8 +212,8 @@ install: programs library ## install below PREFIX (and DESTDIR): programs, libra
 	$(fill_in) runtime/install/footfall.pc.in > $(lib_to)/pkgconfig/footfall.pc
 	$(fill_in) runtime/install/footfall-config.cmake.in > $(lib_to)/cmake/footfall/footfall-config.cmake
 	$(fill_in) runtime/install/footfall-config-version.cmake.in > $(lib_to)/cmake/footfall/footfall-config-version.cmake
-	$(fill_in) preprocess/footfall-pack.1 > $(man_to)/footfall-pack.1
-	$(fill_in) runtime/program/footfall-crowd.1 > $(man_to)/footfall-crowd.1
+	scripts/manual.sh $(B)/footfall-pack preprocess/footfall-pack.1 $(version) > $(man_to)/footfall-pack.1
+	scripts/manual.sh $(B)/footfall-crowd runtime/program/footfall-crowd.1 $(version) > $(man_to)/footfall-crowd.1
 
 # ------------------------------------------------------------------------------------------------ style, rest
 .PHONY: format lint clean help
