@@ -4,6 +4,7 @@
 #define FOOT_UNDER 0.007          /* m, how far a heel or ball may be under its height on the ground ... */
 #define TOE_UNDER 0.006           /* ... and a toe tip */
 #define HEEL_MOST (20.0 * FF_DEG) /* by which a heel may rise where the leg is too short */
+enum { GROWTH_FRAMES = 2 };
 #define KNEE_LEAST (0.6 * FF_DEG)
 
 /* One leg in the world. */
@@ -90,30 +91,30 @@ typedef struct correction {
 } correction;
 
 static correction find_correction(const ff_rig *rig, const ff_clean_pose *pose, const ff_clean_pin *pin,
-                                  const ff_clean_plant *plant)
+                                  const ff_clean_plant *plant, double heel_share)
 {
     leg_now leg = leg_of(rig, pose, pin->foot);
     ff_vec3 heel, ball, to_ball = rig->offset[ff_leg_role(pin->foot, FF_LEG_BALL)];
     ff_vec3 to_heel = rig->offset[pin->foot == FF_LEFT ? FF_BODY_HEEL_L : FF_BODY_HEEL_R];
     ff_clean_plant_places(rig, plant, &heel, &ball);
     ff_quat foot = leg.foot;
-    if (!pin->heel_free) {
+    if (heel_share > 0.0) {
         ff_vec3 along = ff_quat_rotate(foot, ff_unit3(ff_sub3(to_ball, to_heel)));
-        foot = ff_quat_mul(ff_quat_between(along, ff_unit3(ff_sub3(ball, heel))), foot);
+        ff_quat turn = ff_quat_between(along, ff_unit3(ff_sub3(ball, heel)));
+        foot = ff_quat_mul(ff_quat_exp(ff_scale3(ff_quat_log(turn), heel_share)), foot);
     }
     foot = raise_heel(leg.hip, longest_reach(rig, pin->foot), ball, to_ball, foot);
     ff_vec3 ankle = ff_sub3(ball, ff_quat_rotate(foot, to_ball));
     return (correction){ff_sub3(ankle, leg.ankle), ff_quat_log(ff_quat_mul(foot, ff_quat_conj(leg.foot)))};
 }
 
-static void correct(const ff_rig *rig, ff_motion *motion, int frame, int foot, const correction *by,
-                    double share)
+static void correct(const ff_rig *rig, ff_motion *motion, int frame, int foot, const correction *by)
 {
     ff_clean_pose pose;
     ff_clean_pose_read(motion, frame, &pose);
     leg_now leg = leg_of(rig, &pose, foot);
-    ff_quat turned = ff_quat_mul(ff_quat_exp(ff_scale3(by->turn, share)), leg.foot);
-    ff_clean_reach(rig, &pose, foot, ff_madd3(leg.ankle, by->shift, share), turned);
+    ff_quat turned = ff_quat_mul(ff_quat_exp(by->turn), leg.foot);
+    ff_clean_reach(rig, &pose, foot, ff_add3(leg.ankle, by->shift), turned);
     ff_clean_pose_write(&pose, motion, frame);
 }
 
@@ -131,16 +132,66 @@ static int fade_frames(const ff_clean_pins *pins, int index, int direction, doub
     return fade;
 }
 
+/* One end of a pin: the correction there and by how much it grew towards the end in the last frame. */
+typedef struct pin_end {
+    correction at, growth;
+} pin_end;
+
+/* Hermite from (at, growth) to nothing, n frames on: neither a jump nor a kink. */
+static correction faded(const pin_end *end, int i, int n)
+{
+    double s = (double)i / n, value = 1.0 - s * s * (3.0 - 2.0 * s), slope = n * s * (1.0 - s) * (1.0 - s);
+    return (correction){ff_madd3(ff_scale3(end->at.shift, value), end->growth.shift, slope),
+                        ff_madd3(ff_scale3(end->at.turn, value), end->growth.turn, slope)};
+}
+
 static void fade_out(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins, int index,
-                     int direction, const correction *by)
+                     int direction, const pin_end *end)
 {
     const ff_clean_pin *pin = &pins->items[index];
     int fade = fade_frames(pins, index, direction, motion->frame_time);
     for (int i = 1; i <= fade; ++i) {
         int frame = direction > 0 ? pin->last + i : pin->first - i;
         if (frame < 0 || frame >= motion->frame_count) return;
-        correct(rig, motion, frame, pin->foot, by, ff_smooth(1.0 - (double)i / (fade + 1)));
+        correction by = faded(end, i, fade + 1);
+        correct(rig, motion, frame, pin->foot, &by);
     }
+}
+
+/* The correction of one frame as the motion is now. */
+static correction needed(const ff_rig *rig, const ff_motion *motion, const ff_clean_pins *pins, int index,
+                         int frame)
+{
+    ff_clean_pose pose;
+    const ff_clean_pin *pin = &pins->items[index];
+    ff_clean_pose_read(motion, frame, &pose);
+    return find_correction(rig, &pose, pin, &pins->plants[index],
+                           ff_clean_heel_share(pin, frame, motion->frame_time));
+}
+
+static pin_end end_of(const ff_rig *rig, const ff_motion *motion, const ff_clean_pins *pins, int index,
+                      int frame, int inward)
+{
+    pin_end end = {.at = needed(rig, motion, pins, index, frame)};
+    const ff_clean_pin *pin = &pins->items[index];
+    if (pin->last - pin->first < GROWTH_FRAMES) return end;
+    correction before = needed(rig, motion, pins, index, frame + GROWTH_FRAMES * inward);
+    end.growth.shift = ff_scale3(ff_sub3(end.at.shift, before.shift), 1.0 / GROWTH_FRAMES);
+    end.growth.turn = ff_scale3(ff_sub3(end.at.turn, before.turn), 1.0 / GROWTH_FRAMES);
+    return end;
+}
+
+static void close_pin(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins, int index)
+{
+    const ff_clean_pin *pin = &pins->items[index];
+    pin_end first = end_of(rig, motion, pins, index, pin->first, 1);
+    pin_end last = end_of(rig, motion, pins, index, pin->last, -1);
+    for (int frame = pin->first; frame <= pin->last; ++frame) {
+        correction by = needed(rig, motion, pins, index, frame);
+        correct(rig, motion, frame, pin->foot, &by);
+    }
+    fade_out(rig, motion, pins, index, -1, &first);
+    fade_out(rig, motion, pins, index, 1, &last);
 }
 
 /* ------------------------------------------------------------------------------------------------ out of the ground */
@@ -198,19 +249,7 @@ static void lift_feet(const ff_rig *rig, ff_motion *motion, const ff_clean_pins 
 
 void ff_clean_finish(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins)
 {
-    for (int i = 0; i < pins->count; ++i) {
-        const ff_clean_pin *pin = &pins->items[i];
-        correction at_first = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, at_last = at_first;
-        for (int frame = pin->first; frame <= pin->last && frame < motion->frame_count; ++frame) {
-            ff_clean_pose pose;
-            ff_clean_pose_read(motion, frame, &pose);
-            correction by = find_correction(rig, &pose, pin, &pins->plants[i]);
-            if (frame == pin->first) at_first = by;
-            at_last = by;
-            correct(rig, motion, frame, pin->foot, &by, 1.0);
-        }
-        fade_out(rig, motion, pins, i, -1, &at_first);
-        fade_out(rig, motion, pins, i, 1, &at_last);
-    }
+    for (int i = 0; i < pins->count; ++i)
+        close_pin(rig, motion, pins, i);
     lift_feet(rig, motion, pins);
 }

@@ -4,9 +4,9 @@
 
 #include "preprocess/clean_pins.h"
 
-/* Bring heel and ball of pinned feet exactly to their places in every frame of their flat stretches, heels only as
- * far as the legs reach; the correction of the first and last frame fades out over a twelfth of a second around them (cleanup study,
- * section 3.6). Then feet and toes are lifted out of the ground. */
+/* Bring heel and ball of pinned feet exactly to their places in every frame of their flat stretches, heels only as far
+ * as the legs reach and until they are let go; the correction of the first and last frame fades out over a twelfth of a
+ * second around them (cleanup study, section 3.6). Then feet and toes are lifted out of the ground. */
 void ff_clean_finish(const ff_rig *rig, ff_motion *motion, const ff_clean_pins *pins);
 
 /* Bend one leg so that its ankle comes to ankle (towards it, when that is out of reach) and its foot is turned as foot,

@@ -14,8 +14,9 @@
 #define STILL 0.4
 #define STILL_HEIGHT 0.02
 #define STILL_LEAST 0.03
-#define RAMP (4.0 / 120.0) /* s, in which a pin comes and goes */
-#define ROLL_OFF 0.3       /* share of the roll over the ball in which the ball stays pinned */
+#define RAMP (4.0 / 120.0)     /* s, in which a pin comes and goes */
+#define HEEL_OFF (8.0 / 120.0) /* s, in which a heel is let go before the foot is flat no more */
+#define ROLL_OFF 0.3           /* share of the roll over the ball in which the ball stays pinned */
 
 void ff_clean_pins_free(ff_clean_pins *pins)
 {
@@ -46,6 +47,13 @@ void ff_clean_pin_weights(const ff_clean_pin *pin, int frame, double frame_time,
         *ball = ff_smooth(1.0 - after / roll);
     }
     if (pin->heel_free) *heel = 0.0;
+}
+
+double ff_clean_heel_share(const ff_clean_pin *pin, int frame, double frame_time)
+{
+    if (pin->heel_free) return 0.0;
+    double release = ff_min(HEEL_OFF / frame_time, 0.5 * (pin->last - pin->first)) + 1.0;
+    return ff_smooth((pin->last + 1 - frame) / release);
 }
 
 /* ------------------------------------------------------------------------------------------------- finding them */

@@ -31,6 +31,10 @@ void ff_clean_pins_free(ff_clean_pins *pins);
 /* How much heel and ball are pinned, 0 to 1 (cleanup study, section 3.5). */
 void ff_clean_pin_weights(const ff_clean_pin *pin, int frame, double frame_time, double *heel, double *ball);
 
+/* How much of the heel's error is taken out exactly in a flat frame, 0 to 1: a heel starts to rise before the foot is
+ * called flat no more. */
+double ff_clean_heel_share(const ff_clean_pin *pin, int frame, double frame_time);
+
 /* Height (m) that a planted point of a foot has on the ground it is over in a frame. */
 double ff_clean_ground(const ff_clean_pins *pins, int foot, int frame);
 

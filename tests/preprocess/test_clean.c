@@ -183,6 +183,7 @@ static void add_skate(ff_motion *motion, double metres)
     }
 }
 
+/* How far balls, or heels, leave their place while flat; heels until a twelfth of a second before they rise. */
 static double strays(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, bool heel)
 {
     double worst = 0.0;
@@ -192,8 +193,9 @@ static double strays(const ff_rig *rig, const ff_motion *motion, const ff_plants
         if (heel) point = plant->foot == FF_LEFT ? FF_BODY_HEEL_L : FF_BODY_HEEL_R;
         ff_vec3 first[FF_BODY_COUNT], at[FF_BODY_COUNT];
         if (plant->flat_start < 0) continue;
+        int end = plant->flat_end - (heel ? (int)(1.0 / 12.0 / motion->frame_time) : 0);
         ff_motion_pose(rig, motion, plant->flat_start, first, NULL);
-        for (int k = plant->flat_start; k <= plant->flat_end; ++k) {
+        for (int k = plant->flat_start; k <= end; ++k) {
             ff_motion_pose(rig, motion, k, at, NULL);
             worst = ff_max(worst, ff_length3(ff_sub3(at[point], first[point])));
         }
@@ -334,6 +336,30 @@ static void a_motion_that_cannot_be_cleaned_is_refused_and_says_why(void **state
 
 /* --------------------------------------------------------------------------------------------------- real capture */
 
+/* Acceleration of a knee in a frame, m/s^2. */
+static double knee_acceleration(const ff_rig *rig, const ff_motion *motion, int knee, int frame)
+{
+    ff_vec3 at[3][FF_BODY_COUNT];
+    for (int i = 0; i < 3; ++i)
+        ff_motion_pose(rig, motion, frame - 1 + i, at[i], NULL);
+    ff_vec3 change = ff_madd3(ff_add3(at[0][knee], at[2][knee]), at[1][knee], -2.0);
+    return ff_length3(change) / (motion->frame_time * motion->frame_time);
+}
+
+/* By how much a knee jerks more than the captured one did anywhere within 8 frames. */
+static double new_jerk(const ff_rig *rig, const ff_motion *before, const ff_motion *after)
+{
+    double worst = 0.0;
+    for (int knee = FF_ROLE_KNEE_L; knee <= FF_ROLE_KNEE_R; knee += FF_ROLE_KNEE_R - FF_ROLE_KNEE_L)
+        for (int k = 9; k + 9 < before->frame_count; ++k) {
+            double is = knee_acceleration(rig, after, knee, k), was = 0.0;
+            for (int i = k - 8; is > worst && i <= k + 8; ++i)
+                was = ff_max(was, knee_acceleration(rig, before, knee, i));
+            worst = ff_max(worst, is - was);
+        }
+    return worst;
+}
+
 static void captured_clips_meet_what_is_asked_of_them(void **state)
 {
     (void)state;
@@ -357,7 +383,11 @@ static void captured_clips_meet_what_is_asked_of_them(void **state)
         FF_ASSERT_OK(ff_clip_load(path, &options, &clip, &error), error);
         if (i == 0) rig = rig_of(&clip);
         made_motion made = make_motion(&rig, clip);
+        ff_motion before;
+        FF_ASSERT_OK(ff_motion_copy(&made.motion, &before, &error), error);
         FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &r, &error), error);
+        FF_ASSERT_BELOW(new_jerk(&rig, &before, &made.motion), 45.0);
+        ff_motion_free(&before);
         FF_ASSERT_BELOW(r.pin_median.after, 0.0001);
         FF_ASSERT_BELOW(r.pin_worst.after, 0.003);
         FF_ASSERT_BELOW(r.turn_mean, 1.5 * FF_DEG);
