@@ -116,8 +116,12 @@ ff_status ff_pack_add_stream(ff_pack_content *content, const ff_pose_coded *code
                              double rate, uint32_t *index, ff_error *error)
 {
     ff_pack_stream stream = coded->stream;
-    const ff_pack_stream *last = (const ff_pack_stream *)content->streams.data + content->streams.count - 1;
-    stream.first_frame = content->streams.count > 0 ? last->first_frame + last->frame_count : 0;
+    stream.first_frame = 0;
+    if (content->streams.count > 0) {
+        const ff_pack_stream *last =
+            (const ff_pack_stream *)content->streams.data + content->streams.count - 1;
+        stream.first_frame = last->first_frame + last->frame_count;
+    }
     stream.frame_count = (uint32_t)frame_count;
     stream.rate = (float)rate;
     stream.first_lanes = (uint32_t)content->lanes.count;
