@@ -2,11 +2,14 @@
 #include "preprocess/correspond_set.h"
 #include "preprocess/derive.h"
 #include "preprocess/pack_fill.h"
+#include "preprocess/sharp_turn.h"
 
 #include "runtime/core/base/fail.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#define NO_STRAFE (15.0 * FF_DEG) /* algorithms A.10 */
 
 static ff_status no_memory(ff_error *error)
 {
@@ -75,12 +78,30 @@ static ff_status play_model(const ff_rig *rig, const ff_example_set *set, ff_exa
     return status;
 }
 
+/* Of the examples that go forwards without strafing, as the hull is (algorithms A.11). */
+static ff_status add_sharp_turns(ff_pack_content *content, const ff_example_set *set, ff_error *error)
+{
+    ff_turning *motions = ff_calloc((size_t)set->count, sizeof *motions);
+    if (!motions) return no_memory(error);
+    int count = 0;
+    for (int i = 0; i < set->count; ++i) {
+        const ff_pack_example *r = &set->items[i].record;
+        if (r->v_forward > 0.0f && fabs(ff_atan2((double)r->v_left, (double)r->v_forward)) <= NO_STRAFE)
+            motions[count++] = (ff_turning){ff_length2(ff_v2((double)r->v_forward, (double)r->v_left)),
+                                            (double)r->turn_rate};
+    }
+    ff_status status = ff_sharp_turns_find(motions, count, &content->sharp, error);
+    free(motions);
+    return status;
+}
+
 ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff_example_set *set,
                            ff_tasks *tasks, ff_error *error)
 {
     ff_correspondences found = {0};
     ff_example *gait = ff_calloc((size_t)set->count, sizeof *gait);
     ff_status status = gait ? add_loops(content, set, error) : no_memory(error);
+    if (status == FF_OK) status = add_sharp_turns(content, set, error);
     if (status == FF_OK) status = add_model(content, &set->gait, error);
     if (status == FF_OK) status = play_model(rig, set, gait, error);
     if (status == FF_OK) status = ff_correspond_set(rig, set, gait, tasks, &found, error);
