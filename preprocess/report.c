@@ -18,6 +18,8 @@ static const char *const style[] = {
     ".plant{fill:#dbe7f3}.written{stroke:#7a2c7a;stroke-width:2}.found{fill:#999}.flat{fill:#b3cfe9}.axis{"
     "stroke:#bbb}.second,.grid{stroke:#e6e6e6;fill:none}",
     ".p0{stroke:#c2571a}.p1{stroke:#2c7a3f}.p2{stroke:#2456b8}.rejected{fill:#f3d5d5;stroke:#c66}",
+    ".path{fill:none;stroke-width:0.7}.path.l{stroke:#2456b8}.path.r{stroke:#c2571a}.map{font-size:10px;"
+    "width:132px}",
     ".row{display:flex;flex-wrap:wrap;gap:30px;align-items:flex-start}",
     ".cards{display:flex;flex-wrap:wrap;gap:8px;margin-top:8px}",
     ".card{border:1px solid #ddd;border-top:4px solid;padding:5px 8px;font-size:11px;line-height:1.35}",
@@ -138,10 +140,13 @@ ff_status ff_report_write(const ff_pack *pack, const char *pack_name, const char
         write_summary(&page, pack);
         write_skipped(&page, meta);
         ff_report_hull(&page, pack);
+        status = ff_report_examples(&page, pack, meta, error);
+        if (status == FF_OK) status = ff_report_maps(&page, pack, error);
         for (uint32_t i = 0; i < pack->clip_count; ++i)
             write_clip(&page, pack, i, meta);
         ff_text_add(&page, "</html>\n");
-        status = ff_text_write(&page, path, error);
+        if (status == FF_OK) status = ff_text_write(&page, path, error);
+        ff_text_free(&page);
     }
     json_decref(meta);
     return status;

@@ -30,4 +30,9 @@ void ff_report_clean(ff_text *page, const json_t *clean);
 /* Examples and their hull in the plane of velocities (FbCrowd, figure 3). */
 void ff_report_hull(ff_text *page, const ff_pack *pack);
 
+/* Every example as strips of poses, the kinds of locomotion, and the semi-procedural clip; then the distance maps of
+ * examples that correspond, with the moments found. */
+ff_status ff_report_examples(ff_text *page, const ff_pack *pack, const json_t *meta, ff_error *error);
+ff_status ff_report_maps(ff_text *page, const ff_pack *pack, ff_error *error);
+
 #endif

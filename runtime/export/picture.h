@@ -37,6 +37,8 @@ void ff_picture_text(ff_picture *picture, ff_pixel place, double height, int ali
 /* Copy width x height RGB pixels, already FF_PICTURE_SCALE times larger, to (x, y). */
 void ff_picture_paste(ff_picture *picture, int x, int y, const uint8_t *rgb, int width, int height);
 
+/* The picture as the bytes of a PNG file; free(*bytes). */
+ff_status ff_picture_encode_png(const ff_picture *picture, void **bytes, size_t *size, ff_error *error);
 ff_status ff_picture_write_png(const ff_picture *picture, const char *path, ff_error *error);
 
 /* Colour of a hue in turns (0 red, 1/3 green, 2/3 blue), saturation and brightness in [0, 1]. */

@@ -12,6 +12,8 @@ extern "C" {
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <new>
 #include <vector>
 
@@ -152,18 +154,34 @@ void ff_picture_paste(ff_picture *picture, int x, int y, const uint8_t *rgb, int
     });
 }
 
-ff_status ff_picture_write_png(const ff_picture *picture, const char *path, ff_error *error)
+ff_status ff_picture_encode_png(const ff_picture *picture, void **bytes, size_t *size, ff_error *error)
 {
+    *bytes = nullptr;
+    *size = 0;
     try {
         cv::Mat small;
         cv::resize(picture->large, small, cv::Size(), 1.0 / scale, 1.0 / scale, cv::INTER_AREA);
-        std::vector<unsigned char> bytes;
-        if (!cv::imencode(".png", small, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6}))
-            return ff_fail(error, FF_ERR_IO, "%s: the picture could not be encoded as PNG", path);
-        return ff_file_write_atomic(path, bytes.data(), bytes.size(), error);
+        std::vector<unsigned char> encoded;
+        if (!cv::imencode(".png", small, encoded, {cv::IMWRITE_PNG_COMPRESSION, 6}))
+            return ff_fail(error, FF_ERR_IO, "the picture could not be encoded as PNG");
+        *bytes = std::malloc(encoded.size());
+        if (*bytes == nullptr) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for a picture");
+        std::memcpy(*bytes, encoded.data(), encoded.size());
+        *size = encoded.size();
+        return FF_OK;
     } catch (...) {
-        return ff_fail(error, FF_ERR_NO_MEMORY, "no memory to write %s", path);
+        return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for a picture");
     }
+}
+
+ff_status ff_picture_write_png(const ff_picture *picture, const char *path, ff_error *error)
+{
+    void *bytes;
+    size_t size;
+    ff_status status = ff_picture_encode_png(picture, &bytes, &size, error);
+    if (status == FF_OK) status = ff_file_write_atomic(path, bytes, size, error);
+    std::free(bytes);
+    return status;
 }
 
 ff_colour ff_colour_hsv(double hue, double saturation, double value)
