@@ -75,7 +75,7 @@ static void draw_strips(ff_text *page, const ff_rig *rig, const ff_example *e)
 static void draw_example(ff_text *page, const ff_rig *rig, const ff_example *e)
 {
     const ff_pack_example *r = &e->record;
-    ff_text_add(page, "<div class=\"card\" style=\"border-top-color:%s\"><b>",
+    ff_text_add(page, "<div class=\"card example\" style=\"border-top-color:%s\"><b>",
                 r->flags & FF_EXAMPLE_DERIVED ? "#f2c14e" : (r->gait == FF_GAIT_RUN ? "#c2571a" : "#2c7a3f"));
     ff_report_text(page, e->name);
     ff_text_add(page, "</b> forward %.2f m/s, left %.2f m/s, turns %.0f&deg;/s, cycle %.2f s%s<br>",
@@ -105,7 +105,7 @@ static void list_kind(ff_text *page, const ff_pack *pack, const ff_example_kind 
         nearest = here;
         best = &pack->examples[i];
     }
-    ff_text_add(page, "<tr><td>%s%s<td>", kind->name,
+    ff_text_add(page, "<tr class=\"kind\"><td>%s%s<td>", kind->name,
                 !ff_kind_has_sides(kind) ? "" : (side > 0.0 ? ", left" : ", right"));
     ff_report_text(page, best ? ff_pack_string(pack, best->name) : "missing");
     ff_text_add(page, "<td>%s</tr>\n",
@@ -139,7 +139,7 @@ static void list_left_out(ff_text *page, const json_t *meta)
     {
         const char *name = json_string_value(json_object_get(entry, "name"));
         const char *why = json_string_value(json_object_get(entry, "why"));
-        ff_text_add(page, "<li>");
+        ff_text_add(page, "<li class=\"cycle\">");
         ff_report_text(page, name ? name : "?");
         ff_text_add(page, ": ");
         ff_report_text(page, why ? why : "");

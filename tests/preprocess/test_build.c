@@ -8,6 +8,7 @@
 #include "runtime/core/base/file.h"
 #include "runtime/core/pack.h"
 #include "tests/check.h"
+#include "tests/preprocess/pack_bars.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -115,6 +116,18 @@ static void threads_do_not_change_a_byte(void **state)
     assert_int_equal(one.size, built_in.size);
     assert_memory_equal(one.data, built_in.data, one.size);
     image_free(&one);
+}
+
+static void examples_are_closed_and_correspond_within_the_limits(void **state)
+{
+    (void)state;
+    ff_pack_bars bars = ff_bars_measure(built_in.pack);
+    ff_bars_print(&bars);
+    assert_true(ff_bars_met(&bars));
+    FF_ASSERT_BELOW(bars.stored, FF_BARS_SLACK);
+    assert_true(2 * bars.found[0] > bars.possible[0] && 2 * bars.found[1] > bars.possible[1]);
+    assert_int_equal(built_in.pack->loop_count, built_in.pack->example_count);
+    assert_true(built_in.pack->gait_count == 1 && built_in.pack->sharp_count >= 2);
 }
 
 static void the_built_in_pack_holds_what_walking_needs(void **state)
@@ -308,6 +321,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_do_not_change_a_byte),
+        cmocka_unit_test(examples_are_closed_and_correspond_within_the_limits),
         cmocka_unit_test(the_built_in_pack_holds_what_walking_needs),
         cmocka_unit_test(folder_and_order_of_inputs_do_not_change_a_byte),
         cmocka_unit_test(a_bad_clip_is_named_and_left_out_or_ends_a_strict_build),

@@ -13,9 +13,31 @@
 typedef struct page {
     void *image;
     ff_pack *pack;
-    char *text; /* the HTML */
-    size_t length;
+    char *text; /* the HTML, without what pictures hold */
+    size_t length, bytes;
+    uint32_t pictures; /* PNG in base64 */
 } page;
+
+/* Letters of a picture may be any: take them out, once looked at. */
+static void cut_pictures(page *p)
+{
+    static const char head[] = "data:image/png;base64,iVBORw0KGgo"; /* as every PNG begins */
+    char *to = p->text;
+    for (const char *from = p->text; *from;) {
+        if (strncmp(from, head, sizeof head - 1) == 0) {
+            size_t size =
+                strspn(from + sizeof head - 1, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                               "0123456789+/=");
+            from += sizeof head - 1 + size;
+            assert_int_equal(*from, '"');
+            ++p->pictures;
+        } else {
+            *to++ = *from++;
+        }
+    }
+    *to = 0;
+    p->length = (size_t)(to - p->text);
+}
 
 static page shared; /* made once for all tests */
 
@@ -41,7 +63,9 @@ static int page_make(void **state)
     p.text = calloc(1, file.size + 1);
     assert_non_null(p.text);
     memcpy(p.text, file.data, file.size);
-    p.length = file.size;
+    p.bytes = p.length = file.size;
+    p.pictures = 0;
+    cut_pictures(&p);
     ff_file_unmap(&file);
     unlink(path);
     rmdir(folder);
@@ -87,6 +111,22 @@ static void shows_every_clip_plant_action_and_example(void **state)
     assert_true(count(&p, "<tr><td>") >= p.pack->example_count);
     assert_true(count(&p, "class=\"rejected\"") >= p.pack->clip_count); /* at least what the ends cut */
     assert_int_equal(count(&p, "class=\"rejected\""), count(&p, "<li>"));
+}
+
+static void shows_how_examples_move_close_and_correspond(void **state)
+{
+    (void)state;
+    page p = shared;
+    uint32_t own = 0;
+    for (uint32_t i = 0; i < p.pack->example_count; ++i)
+        own += !(p.pack->examples[i].flags & FF_EXAMPLE_MIRRORED);
+    assert_int_equal(count(&p, "class=\"card example\""), own);
+    assert_int_equal(count(&p, "class=\"kind\""), 19);
+    assert_int_equal(count(&p, ">missing<"), 0);
+    assert_int_equal(count(&p, "class=\"map\""), p.pack->correspondence_count);
+    assert_int_equal(p.pictures, p.pack->correspondence_count);
+    FF_ASSERT_BELOW((double)p.bytes, 15e6);
+    assert_int_equal(count(&p, "<h2>Semi-procedural clip</h2>"), 1);
 }
 
 static void is_well_formed_and_needs_no_other_file(void **state)
@@ -142,6 +182,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shows_every_clip_plant_action_and_example),
+        cmocka_unit_test(shows_how_examples_move_close_and_correspond),
         cmocka_unit_test(is_well_formed_and_needs_no_other_file),
         cmocka_unit_test(poses_are_those_of_people),
         cmocka_unit_test(long_names_are_cut_and_escaped),
