@@ -3,7 +3,9 @@
 
 #include "mocap/generator/generator.h"
 #include "preprocess/build_clip.h"
+#include "preprocess/derive_actions.h"
 #include "preprocess/pack_fill.h"
+#include "preprocess/select_actions.h"
 #include "preprocess/successors.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/tasks.h"
@@ -188,20 +190,84 @@ static ff_status make_rig(build *b, ff_error *error)
 }
 
 /* What is a short and what a long step is known once all clips are cut. */
-static ff_status split_walks(build *b, ff_error *error)
+static ff_status split_walks(ff_build_clip *clips, int count, ff_error *error)
 {
-    ff_actions **sets = ff_calloc((size_t)b->good, sizeof *sets);
-    if (!sets) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
-    for (int i = 0; i < b->good; ++i)
-        sets[i] = &b->clips[i].actions;
-    ff_status status = ff_actions_split_walks(sets, b->good, error);
+    ff_actions **sets = ff_calloc((size_t)count, sizeof *sets);
+    if (!sets) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", count);
+    for (int i = 0; i < count; ++i)
+        sets[i] = &clips[i].actions;
+    ff_status status = ff_actions_split_walks(sets, count, error);
     free(sets);
+    return status;
+}
+
+/* Every clip of the pack: the good ones, then what was derived from them. They are shallow copies, which share what the
+ * originals own. */
+typedef struct gathered {
+    ff_build_clip *clips, *derived;
+    int count, derived_count;
+} gathered;
+
+static void gathered_free(gathered *g)
+{
+    for (int i = 0; i < g->derived_count; ++i)
+        ff_build_clip_free(&g->derived[i]);
+    free(g->derived);
+    free(g->clips);
+}
+
+static ff_status gather(build *b, const ff_example_set *set, gathered *g, ff_error *error)
+{
+    ff_status status = FF_OK;
+    if (b->settings->pack.actions.derive)
+        status = ff_derive_actions(&b->shared, set, b->clips, b->good, &g->derived, &g->derived_count, error);
+    if (status != FF_OK) return status;
+    g->count = b->good + g->derived_count;
+    g->clips = ff_calloc((size_t)g->count, sizeof *g->clips);
+    if (!g->clips) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", g->count);
+    memcpy(g->clips, b->clips, (size_t)b->good * sizeof *g->clips);
+    if (g->derived_count) memcpy(g->clips + b->good, g->derived, (size_t)g->derived_count * sizeof *g->clips);
+    return split_walks(g->clips, g->count, error);
+}
+
+/* Leave out clips that neither an action nor an example is left of. */
+static void drop_unused(gathered *g, ff_example_set *set)
+{
+    int kept = 0;
+    for (int i = 0; i < g->count; ++i) {
+        bool used = g->clips[i].actions.count > 0;
+        for (int k = 0; k < set->count; ++k)
+            used = used || set->items[k].clip == i;
+        if (!used) continue;
+        for (int k = 0; k < set->count; ++k)
+            if (set->items[k].clip == i) set->items[k].clip = kept;
+        g->clips[kept++] = g->clips[i];
+    }
+    g->count = kept;
+}
+
+static ff_status add_all(build *b, gathered *g, ff_example_set *set, ff_error *error)
+{
+    ff_pack_content *content = &b->result->content;
+    int wanted = (int)b->settings->pack.actions.count;
+    ff_status status = gather(b, set, g, error);
+    if (status == FF_OK && wanted > 0) {
+        status = ff_actions_select(g->clips, g->count, wanted, b->tasks, error);
+        if (status == FF_OK) drop_unused(g, set);
+    }
+    if (status == FF_OK) status = ff_pack_add_examples(content, set, error);
+    if (status == FF_OK) status = ff_pack_add_gait(content, &b->rig, set, b->tasks, error);
+    if (status == FF_OK)
+        status = ff_pack_add_clips(content, g->clips, g->count, b->settings->pack.poses.rate, error);
+    if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
+    if (status == FF_OK)
+        status = ff_pack_add_meta(content, b->settings, g->clips, g->count, b->clips + b->good,
+                                  b->count - b->good, set, error);
     return status;
 }
 
 static ff_status fill(build *b, ff_error *error)
 {
-    ff_pack_content *content = &b->result->content;
     ff_example_set set;
     int *subject = ff_calloc((size_t)b->good, sizeof *subject);
     ff_cycles *cycles = ff_calloc((size_t)b->good, sizeof *cycles);
@@ -217,14 +283,9 @@ static ff_status fill(build *b, ff_error *error)
     free(subject);
     free(cycles);
     if (status != FF_OK) return status;
-    status = ff_pack_add_examples(content, &set, error);
-    if (status == FF_OK) status = ff_pack_add_gait(content, &b->rig, &set, b->tasks, error);
-    if (status == FF_OK)
-        status = ff_pack_add_clips(content, b->clips, b->good, b->settings->pack.poses.rate, error);
-    if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
-    if (status == FF_OK)
-        status = ff_pack_add_meta(content, b->settings, b->clips, b->good, b->clips + b->good,
-                                  b->count - b->good, &set, error);
+    gathered g = {0};
+    status = add_all(b, &g, &set, error);
+    gathered_free(&g);
     ff_example_set_free(&set);
     return status;
 }
@@ -268,7 +329,6 @@ static ff_status run(build *b, ff_error *error)
     b->shared.points = b->result->content.points.data;
     if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
     if (status == FF_OK) status = run_stage(b, "cutting", ff_build_clip_cut, error);
-    if (status == FF_OK) status = split_walks(b, error);
     if (status == FF_OK) status = fill(b, error);
     return status;
 }

@@ -246,8 +246,7 @@ ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *
     return status;
 }
 
-/* From the first real pose on. Nothing needs the frames afterwards. */
-static ff_status store_motion(ff_build_clip *clip, const ff_build_shared *shared)
+ff_status ff_build_clip_store(ff_build_clip *clip, const ff_build_shared *shared)
 {
     ff_motion *motion = &clip->motion;
     size_t rest = (size_t)clip->clip.rest_frames;
@@ -287,7 +286,7 @@ static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
     if (status == FF_OK && walks)
         status = ff_cycles_cut_idle(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
                                     &clip->error);
-    if (status == FF_OK) status = store_motion(clip, shared);
+    if (status == FF_OK) status = ff_build_clip_store(clip, shared);
     return status;
 }
 

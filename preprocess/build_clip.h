@@ -18,6 +18,7 @@ typedef struct ff_build_clip {
     char *source;                    /* relative to the folder that holds all clips: never an absolute path */
     const ff_catalogue_entry *entry; /* NULL = a built-in clip */
     int built_in;                    /* index of the generator */
+    bool derived;                    /* made from another clip: there is no file of it */
     const char *licence, *citation, *tags, *mode;
     bool mirror;
     int first_frame; /* of the file: frames before it were trimmed */
@@ -59,6 +60,10 @@ void ff_build_clip_find(ff_build_clip *clip, const ff_build_shared *shared);
 ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *error);
 /* Stage 2: onto the rig, feet cleaned up if the settings say so, actions, gait cycles and the motion as the pack stores it. */
 void ff_build_clip_cut(ff_build_clip *clip, const ff_build_shared *shared);
+
+/* The last of stage 2: code the motion from its first real pose on and give its frames back, which nothing needs
+ * afterwards. */
+ff_status ff_build_clip_store(ff_build_clip *clip, const ff_build_shared *shared);
 
 static inline double ff_build_clip_seconds(const ff_build_clip *clip)
 {

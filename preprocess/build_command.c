@@ -15,13 +15,20 @@ static void print_summary(const ff_build_result *built, const char *path, size_t
     const ff_pack_content *c = &built->content;
     const ff_pack_action *action = c->actions.data;
     const ff_pack_example *example = c->examples.data;
-    size_t mirrored = 0, derived = 0;
-    for (size_t i = 0; i < c->actions.count; ++i)
-        mirrored += (action[i].flags & FF_ACTION_MIRRORED) != 0;
+    const ff_pack_clip *clip = c->clips.data;
+    size_t mirrored = 0, derived = 0, made_clips = 0, made = 0;
+    for (size_t i = 0; i < c->clips.count; ++i)
+        made_clips += (clip[i].flags & FF_CLIP_DERIVED) != 0;
+    for (size_t i = 0; i < c->actions.count; ++i) {
+        bool mirror_image = (action[i].flags & FF_ACTION_MIRRORED) != 0;
+        mirrored += mirror_image;
+        made += !mirror_image && (action[i].flags & FF_ACTION_DERIVED);
+    }
     for (size_t i = 0; i < c->examples.count; ++i)
         derived += (example[i].flags & FF_EXAMPLE_DERIVED) != 0;
-    printf("%zu clips (%d left out), %zu plants, %zu actions and %zu mirrored ones\n", c->clips.count,
-           built->skipped_count, c->plants.count, c->actions.count - mirrored, mirrored);
+    printf("%zu clips (%d left out), %zu plants, %zu actions (%zu of them made up) and %zu mirrored ones\n",
+           c->clips.count - made_clips, built->skipped_count, c->plants.count, c->actions.count - mirrored,
+           made, mirrored);
     printf("%zu examples to walk with (%zu of them made up), %zu simplices, velocity hull of %zu corners\n",
            c->examples.count, derived, c->simplices.count, c->hull.count);
     if (built->reused > 0)
@@ -93,7 +100,9 @@ static int build_and_write(const ff_operands *operands, const ff_build_settings 
  * beside the pack. Returns -1 to go on. */
 typedef struct build_words {
     const char *path, *config, *cache;
-    double rate; /* 0 = not given */
+    double rate;     /* 0 = not given */
+    int64_t actions; /* 0 = not given */
+    bool no_derived;
     int64_t threads;
     bool no_cache, raw, json;
 } build_words;
@@ -109,6 +118,8 @@ static int settle(const ff_command *command, const build_words *words, ff_build_
         return ff_command_fail(PROGRAM, &error);
     if (words->rate > 0.0) settings->pack.poses.rate = words->rate;
     if (words->raw) settings->pack.motion.clean = false;
+    if (words->actions > 0) settings->pack.actions.count = words->actions;
+    if (words->no_derived) settings->pack.actions.derive = false;
     settings->threads = (uint32_t)words->threads;
     settings->cache = words->cache;
     if (words->cache || words->no_cache) return -1;
@@ -156,6 +167,15 @@ int ff_build_command(int argc, char **argv)
          .low = 10,
          .high = 240},
         {.name = "--no-clean", .help = "leave feet sliding as they were captured", .flag = &words.raw},
+        {.name = "--actions",
+         .value_name = "N",
+         .help = "keep the N best actions (their mirror images come on top); default: all",
+         .integer = &words.actions,
+         .low = 1,
+         .high = 100000},
+        {.name = "--no-derived",
+         .help = "make up no start, stop, turn or side step that the clips lack",
+         .flag = &words.no_derived},
         {.name = "--json", .help = "say on stdout what was built as JSON", .flag = &words.json},
         {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &settings.quiet},
         {0}};

@@ -1,7 +1,7 @@
 #include "preprocess/derive.h"
 
+#include "preprocess/foot_target.h"
 #include "preprocess/loop.h"
-#include "runtime/core/leg_ik.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -45,22 +45,13 @@ static void make_plan(const ff_rig *rig, const ff_example *base, plan *p)
     mean_pose(p);
 }
 
-typedef struct foot_target {
-    ff_vec3 ball; /* x left, y up, z forward */
-    ff_quat rotation;
-} foot_target;
-
-static foot_target place_foot(const plan *p, int foot, double phase, bool *stands)
+static ff_foot_target place_foot(const plan *p, int foot, double phase, bool *stands)
 {
     ff_model_foot at = ff_gait_model_foot(&p->model, p->rates, p->period, foot, phase);
     ff_quat pitch = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -at.pitch);
     *stands = at.swing < 0.0;
-    return (foot_target){ff_v3(at.left, at.height, at.forward), ff_quat_mul(ff_quat_yaw(at.yaw), pitch)};
-}
-
-static ff_vec3 ankle_of(const ff_rig *rig, const foot_target *t)
-{
-    return ff_sub3(t->ball, ff_quat_rotate(t->rotation, rig->offset[FF_ROLE_BALL_L]));
+    return (ff_foot_target){ff_v3(at.left, at.height, at.forward), ff_quat_mul(ff_quat_yaw(at.yaw), pitch),
+                            FF_QUAT_IDENTITY};
 }
 
 /* The base's phase whose body goes with the feet at a phase: backwards the cycle is read backwards. */
@@ -94,23 +85,13 @@ static double room_above(const plan *p, const ff_vec3 *at, int foot, ff_vec3 ank
     return ankle.y + sqrt(ff_max(length * length - flat * flat, 0.01)) - hip.y;
 }
 
-static void world_of(const ff_quat *local, ff_quat *world)
+static void solve_leg(const plan *p, int foot, const ff_foot_target *target, const ff_vec3 *at,
+                      const ff_quat *world, ff_quat *local)
 {
-    world[0] = local[0];
-    for (int r = 1; r < FF_ROLE_JOINT_COUNT; ++r)
-        world[r] = ff_quat_mul(world[ff_role_parent((ff_role)r)], local[r]);
-}
-
-static void solve_leg(const plan *p, int foot, const foot_target *target, const ff_vec3 *at, ff_quat *world,
-                      ff_quat *local)
-{
-    int hip = foot ? FF_ROLE_HIP_R : FF_ROLE_HIP_L, knee = hip + 1, ankle = hip + 2, ball = hip + 3;
-    ff_leg leg = {at[hip], at[knee], at[ankle], world[hip], world[knee], world[ankle]};
-    ff_leg_solve(&leg, at[hip], ankle_of(p->rig, target));
-    local[hip] = ff_quat_mul(ff_quat_conj(world[0]), leg.thigh);
-    local[knee] = ff_quat_mul(ff_quat_conj(leg.thigh), leg.shank);
-    local[ankle] = ff_quat_mul(ff_quat_conj(leg.shank), target->rotation);
-    local[ball] = ff_quat_slerp(FF_QUAT_IDENTITY, local[ball], ff_min(1.0, p->size));
+    ff_foot_target bent = *target;
+    bent.toes = ff_quat_slerp(FF_QUAT_IDENTITY, local[(foot ? FF_ROLE_HIP_R : FF_ROLE_HIP_L) + 3],
+                              ff_min(1.0, p->size));
+    ff_leg_to_target(p->rig, foot, &bent, at, world, local);
 }
 
 /* All frames: feet where the model says, the hips at one height over the base's own motion, so that the longest reach of
@@ -126,14 +107,14 @@ static void solve_frames(const plan *p, double reach, ff_example *out)
             body_pose(p, phase, &hips, local);
             if (pass) hips.z += lift;
             out->hips[k] = hips;
-            world_of(local, world);
+            ff_local_to_world(local, world);
             ff_rig_pose(p->rig, ff_v3(hips.y, hips.z, hips.x), world, at);
             for (int foot = 0; foot < 2; ++foot) {
                 bool stands;
-                foot_target to = place_foot(p, foot, phase, &stands);
+                ff_foot_target to = place_foot(p, foot, phase, &stands);
                 if (pass) solve_leg(p, foot, &to, at, world, local);
                 if (!pass && stands)
-                    lift = ff_min(lift, room_above(p, at, foot, ankle_of(p->rig, &to), reach));
+                    lift = ff_min(lift, room_above(p, at, foot, ff_target_ankle(p->rig, &to), reach));
             }
         }
     }
@@ -201,9 +182,9 @@ ff_status ff_derive_idle(const ff_rig *rig, const ff_example *base, ff_example *
         ff_quat swell = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -breath);
         local[FF_ROLE_CHEST] = ff_quat_mul(local[FF_ROLE_CHEST], swell);
         local[FF_ROLE_NECK] = ff_quat_mul(ff_quat_conj(swell), local[FF_ROLE_NECK]);
-        world_of(local, world);
+        ff_local_to_world(local, world);
         ff_vec3 at[FF_BODY_COUNT], hips = ff_v3(0.0, p.mean_hips.z, 0.0);
-        foot_target feet[2];
+        ff_foot_target feet[2];
         double lift = 1e9;
         ff_rig_pose(rig, hips, world, at);
         for (int foot = 0; foot < 2; ++foot) {
@@ -211,7 +192,7 @@ ff_status ff_derive_idle(const ff_rig *rig, const ff_example *base, ff_example *
             feet[foot].ball = ff_v3(side * FF_STAND_HALF_WIDTH, p.rest[FF_ROLE_BALL_L].y,
                                     p.rest[FF_ROLE_BALL_L].z - p.rest[FF_ROLE_HIP_L].z);
             feet[foot].rotation = ff_quat_yaw(side * FF_STAND_TOE_OUT);
-            lift = ff_min(lift, room_above(&p, at, foot, ankle_of(rig, &feet[foot]), STAND_REACH));
+            lift = ff_min(lift, room_above(&p, at, foot, ff_target_ankle(rig, &feet[foot]), STAND_REACH));
         }
         hips.y += lift;
         ff_rig_pose(rig, hips, world, at);

@@ -59,7 +59,7 @@ void ff_motion_pose(const ff_rig *rig, const ff_motion *motion, int frame, ff_ve
 
 /* --------------------------------------------------------------------------------------------------- the memory */
 
-static ff_status motion_alloc(ff_motion *motion, int frames, double frame_time, ff_error *error)
+ff_status ff_motion_alloc(ff_motion *motion, int frames, double frame_time, ff_error *error)
 {
     memset(motion, 0, sizeof *motion);
     size_t n = (size_t)frames;
@@ -177,7 +177,7 @@ ff_status ff_motion_from_clip(const ff_rig *rig, const ff_clip *clip, const ff_p
         return FF_ERR_NO_DATA;
     }
     ff_status status = ff_retarget_begin(rig, clip, plants, &retarget, error);
-    if (status == FF_OK) status = motion_alloc(out, clip->frame_count, clip->frame_time, error);
+    if (status == FF_OK) status = ff_motion_alloc(out, clip->frame_count, clip->frame_time, error);
     if (status != FF_OK) return status;
     out->scale = retarget.scale;
     for (int k = rest; k < clip->frame_count; ++k)
@@ -211,7 +211,7 @@ void ff_motion_sample(const ff_motion *motion, double frame, ff_vec3 *root, ff_v
 
 ff_status ff_motion_copy(const ff_motion *motion, ff_motion *out, ff_error *error)
 {
-    ff_status status = motion_alloc(out, motion->frame_count, motion->frame_time, error);
+    ff_status status = ff_motion_alloc(out, motion->frame_count, motion->frame_time, error);
     if (status != FF_OK) return status;
     size_t n = (size_t)motion->frame_count;
     out->scale = motion->scale;
@@ -223,7 +223,7 @@ ff_status ff_motion_copy(const ff_motion *motion, ff_motion *out, ff_error *erro
 
 ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error)
 {
-    ff_status status = motion_alloc(out, motion->frame_count, motion->frame_time, error);
+    ff_status status = ff_motion_alloc(out, motion->frame_count, motion->frame_time, error);
     if (status != FF_OK) return status;
     out->scale = motion->scale;
     for (int k = 0; k < motion->frame_count; ++k) {

@@ -44,6 +44,8 @@ void ff_rig_pose_local(const ff_rig *rig, ff_vec3 root, ff_vec3 hips, const ff_q
  * 0.25 s, facing from hips and shoulders. The caller frees *out with ff_motion_free. */
 ff_status ff_motion_from_clip(const ff_rig *rig, const ff_clip *clip, const ff_plants *plants, ff_motion *out,
                               ff_error *error);
+/* A motion of zeroed frames, scale 1. */
+ff_status ff_motion_alloc(ff_motion *motion, int frames, double frame_time, ff_error *error);
 void ff_motion_free(ff_motion *motion);
 
 /* World positions [FF_BODY_COUNT] of one frame (world = the clip's, floor at y = 0); rotations may be NULL or

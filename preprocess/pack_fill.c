@@ -248,7 +248,7 @@ static ff_status add_clip(ff_pack_content *content, const ff_build_clip *clip, u
                           ff_error *error)
 {
     const ff_plants *plants = &clip->plants;
-    ff_pack_clip record = {.source_hash = clip->hash};
+    ff_pack_clip record = {.source_hash = clip->hash, .flags = clip->derived ? FF_CLIP_DERIVED : 0};
     const char *texts[5] = {clip->clip.name, clip->source, clip->licence, clip->citation, clip->tags};
     uint32_t *names[5] = {&record.name, &record.source, &record.licence, &record.citation, &record.tags};
     for (int i = 0; i < 5; ++i)

@@ -16,6 +16,12 @@
             offsetof(ff_settings, section.key)                                                               \
     }
 
+#define WHOLE(section, key, stage, standard, low, high, what)                                                \
+    {                                                                                                        \
+#section, #key, FF_SETTING_WHOLE, stage, "", standard, low, high, what,                              \
+            offsetof(ff_settings, section.key)                                                               \
+    }
+
 #define SWITCH(section, key, stage, standard, what)                                                          \
     {                                                                                                        \
 #section, #key, FF_SETTING_SWITCH, stage, "", standard, 0.0, 1.0, what,                              \
@@ -27,6 +33,10 @@ const ff_setting ff_setting_table[] = {
     SWITCH(motion, clean, FF_STAGE_CUT, true, "planted feet are made to stand still"),
     NUMBER(poses, rate, FF_STAGE_PACK, "Hz", FF_PACK_RATE, 10.0, 240.0,
            "how often the report shows heights and speeds of feet"),
+    WHOLE(actions, count, FF_STAGE_PACK, 0.0, 0.0, 100000.0,
+          "how many actions the pack has, without mirror images; the best are chosen; 0 = all"),
+    SWITCH(actions, derive, FF_STAGE_PACK, true,
+           "starts, stops, turns on the spot and side steps are made up when no clip shows them"),
 };
 const int ff_setting_count = sizeof ff_setting_table / sizeof ff_setting_table[0];
 

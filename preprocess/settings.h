@@ -14,6 +14,10 @@ typedef struct ff_settings {
     struct {
         double rate;
     } poses;
+    struct {
+        int64_t count;
+        bool derive;
+    } actions;
 } ff_settings;
 
 /* The earliest stage whose result a setting changes: what a cache holds of later stages is then made anew. */
