@@ -211,7 +211,7 @@ void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_pla
     ff_vec2 left = start.ball[r->swing];
     if (span->swing_from >= 0) {
         int full = ff_plant_full(plants, span->swing_from);
-        left = feet_at(rig, motion, full < span->first ? full : span->first).ball[r->swing];
+        left = feet_at(rig, motion, full >= 0 && full < span->first ? full : span->first).ball[r->swing];
     }
     describe_step(motion, span, &start, &end, left, r);
     r->mode = find_mode(r, span);
