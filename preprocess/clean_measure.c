@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define STILL 0.2 /* m/s^2 */
 /* Accelerations are taken of positions averaged twice over this time (cleanup study: 7 frames at 120 Hz). */
 #define SMOOTHED (7.0 / 120.0) /* s */
 
@@ -176,7 +177,9 @@ static ff_status measure_acceleration(const ff_rig *rig, const ff_motion *before
     if (!points) return ff_fail(error, FF_ERR_NO_MEMORY, "measuring %zu frames", n);
     double was = squared_acceleration(rig, before, points, points + n);
     double is = squared_acceleration(rig, after, points, points + n);
-    *ratio = was > 0.0 ? sqrt(is / was) : 1.0;
+    /* what hardly moves may move a little: the ratio of two next to nothings says nothing */
+    double least = STILL * before->frame_time * before->frame_time, still = 4.0 * (double)n * least * least;
+    *ratio = sqrt((is + still) / (was + still));
     free(points);
     return FF_OK;
 }

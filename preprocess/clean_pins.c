@@ -104,8 +104,9 @@ static ff_vec2 captured_place(const ff_rig *rig, const ff_motion *motion, const 
     return ff_add2(place, ff_plane(ff_sub3(still, ball)));
 }
 
-static void add_pin(const ff_rig *rig, const ff_motion *motion, const ff_plant *plant, ff_clean_pin pin,
-                    ff_clean_pins *pins)
+/* Returns where the motion has the ball, from its captured place. */
+static ff_vec2 add_pin(const ff_rig *rig, const ff_motion *motion, const ff_plant *plant, ff_clean_pin pin,
+                       ff_clean_pins *pins)
 {
     ff_vec3 heel, ball;
     if (pin.last >= motion->frame_count) pin.last = motion->frame_count - 1;
@@ -119,6 +120,35 @@ static void add_pin(const ff_rig *rig, const ff_motion *motion, const ff_plant *
     memcpy(place.at, place.tied, sizeof place.at);
     pins->plants[pins->count] = place;
     pins->items[pins->count++] = pin;
+    return ff_sub2(ff_plane(ball), at);
+}
+
+/* A body of other proportions, whose joints turn alike, sets its feet elsewhere under its hips than the captured one
+ * times the scale: wider, further ahead. Seen from the root that is the same all through a clip, so plants are moved by
+ * its mean. Ahead both feet alike: each its own way would make one's steps longer and the other's shorter. */
+static void fit_to_body(const ff_motion *motion, ff_clean_pins *pins, const ff_vec2 *off)
+{
+    double weight[2] = {0.0, 0.0};
+    ff_vec2 mean[2] = {{0.0, 0.0}, {0.0, 0.0}};
+    for (int i = 0; i < pins->count; ++i) {
+        const ff_clean_pin *pin = &pins->items[i];
+        double frames = pin->last - pin->first + 1;
+        ff_vec2 ahead = ff_fwd2(motion->root[(pin->first + pin->last) / 2].z);
+        mean[pin->foot] = ff_madd2(mean[pin->foot], ff_to_frame2(ahead, off[i]), frames);
+        weight[pin->foot] += frames;
+    }
+    for (int foot = 0; foot < 2; ++foot)
+        if (weight[foot] > 0.0) mean[foot] = ff_scale2(mean[foot], 1.0 / weight[foot]);
+    if (weight[FF_LEFT] > 0.0 && weight[FF_RIGHT] > 0.0)
+        mean[FF_LEFT].a = mean[FF_RIGHT].a = 0.5 * (mean[FF_LEFT].a + mean[FF_RIGHT].a);
+    for (int i = 0; i < pins->count; ++i) {
+        const ff_clean_pin *pin = &pins->items[i];
+        ff_vec2 ahead = ff_fwd2(motion->root[(pin->first + pin->last) / 2].z);
+        ff_vec2 by = ff_from_frame2(ahead, mean[pin->foot]);
+        ff_clean_plant *plant = &pins->plants[i];
+        plant->at[0] = plant->tied[0] += by.b;
+        plant->at[1] = plant->tied[1] += by.a;
+    }
 }
 
 static bool is_uneven(const ff_plants *plants)
@@ -138,7 +168,9 @@ ff_status ff_clean_pins_find(const ff_rig *rig, const ff_motion *motion, const f
                            .plants = ff_calloc(n, sizeof *out->plants),
                            .rest = rest[FF_ROLE_BALL_L].y,
                            .uneven = is_uneven(plants)};
-    if (!out->items || !out->plants) {
+    ff_vec2 *off = ff_calloc(n, sizeof *off);
+    if (!out->items || !out->plants || !off) {
+        free(off);
         ff_clean_pins_free(out);
         return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %d pinned feet", plants->count);
     }
@@ -150,9 +182,12 @@ ff_status ff_clean_pins_find(const ff_rig *rig, const ff_motion *motion, const f
                             .last = plant->flat_end,
                             .end = plant->end,
                             .flat = plant->flat_start >= 0};
-        if (pin.flat || still_ball(plants, plant, motion->frame_time, &pin))
-            add_pin(rig, motion, plant, pin, out);
+        if (!pin.flat && !still_ball(plants, plant, motion->frame_time, &pin)) continue;
+        int index = out->count;
+        off[index] = add_pin(rig, motion, plant, pin, out);
     }
+    fit_to_body(motion, out, off);
+    free(off);
     return FF_OK;
 }
 
