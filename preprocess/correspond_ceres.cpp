@@ -123,7 +123,7 @@ void refine(const ff_point_cycle *first, const ff_point_cycle *second, double re
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = 10;
+    options.max_num_iterations = 6;
     options.function_tolerance = 1e-4;
     options.num_threads = 1; // one correspondence per thread already, and the same bits always
     options.logging_type = ceres::SILENT;

@@ -113,7 +113,9 @@ static void print_correspondences(const ff_pack *pack)
         kind->keys += (c->flags & FF_CORRESPOND_KEYS) != 0;
         kind->pairs += c->pair_count;
         kind->worst = ff_max(kind->worst, worst);
-        kind->wait = ff_max(kind->wait, (double)ff_max((double)c->wait[0], (double)c->wait[1]));
+        /* Who stands may go at any time: his loop has no moment of its own. */
+        if (!(pack->examples[c->from].flags & FF_EXAMPLE_IDLE))
+            kind->wait = ff_max(kind->wait, (double)ff_max((double)c->wait[0], (double)c->wait[1]));
     }
     for (int k = 0; k < KINDS; ++k) {
         if (kinds[k].found == 0) continue;

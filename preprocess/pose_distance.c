@@ -119,9 +119,11 @@ ff_alignment ff_cloud_align(const ff_vec3 *first, const ff_vec3 *second, const d
 double ff_cloud_distance(const ff_vec3 *first, const ff_vec3 *second, const double *weights, int period,
                          int count, const ff_alignment *alignment)
 {
-    double sum = 0.0, total = 0.0;
+    double sum = 0.0, total = 0.0, sine, cosine;
+    ff_sincos(alignment->turn, &sine, &cosine);
+    ff_vec3 shift = ff_v3(alignment->shift.b, 0.0, alignment->shift.a);
     for (int i = 0; i < count; ++i) {
-        ff_vec3 apart = ff_sub3(first[i], ff_aligned(alignment, second[i]));
+        ff_vec3 apart = ff_sub3(first[i], ff_add3(turned(second[i], sine, cosine), shift));
         double w = weights ? weights[i % period] : 1.0;
         sum += w * ff_dot3(apart, apart);
         total += w;

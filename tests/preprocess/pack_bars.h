@@ -120,7 +120,9 @@ static inline void ff_bars_correspondence(const ff_pack *pack, const ff_rig *rig
     ++out->found[kind];
     out->pairs[kind] += c->pair_count;
     out->by_keys += c->flags & FF_CORRESPOND_KEYS;
-    out->wait[kind] = ff_max(out->wait[kind], ff_max((double)c->wait[0], (double)c->wait[1]));
+    /* Who stands may go at any time: his loop has no moment of its own. */
+    if (!(pack->examples[c->from].flags & FF_EXAMPLE_IDLE))
+        out->wait[kind] = ff_max(out->wait[kind], ff_max((double)c->wait[0], (double)c->wait[1]));
 }
 
 static inline ff_pack_bars ff_bars_measure(const ff_pack *pack)
