@@ -10,9 +10,9 @@ _Static_assert(sizeof(ff_plants) == 240, "carry_plants: is everything of ff_plan
 _Static_assert(sizeof(ff_motion) == 48, "carry_motion: is everything of ff_motion carried?");
 _Static_assert(sizeof(ff_actions) == 32, "carry_actions: is everything of ff_actions carried?");
 _Static_assert(sizeof(ff_cycles) == 16, "carry_cycles: is everything of ff_cycles carried?");
-_Static_assert(sizeof(ff_pose_coded) == 600, "carry_pose: is everything of ff_pose_coded carried?");
+_Static_assert(sizeof(ff_pose_coded) == 696, "carry_pose: is everything of ff_pose_coded carried?");
 _Static_assert(sizeof(ff_example) == 240, "carry_cycles: is everything of ff_example carried?");
-_Static_assert(sizeof(ff_build_clip) == 2256, "is everything the stages find carried?");
+_Static_assert(sizeof(ff_build_clip) == 2352, "is everything the stages find carried?");
 
 /* Bytes on their way: to out, or, when that is NULL, from in. */
 typedef struct carrier {

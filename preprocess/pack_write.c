@@ -18,7 +18,7 @@ static const struct section_kind {
     {FF_SECTION_JOINTS, sizeof(ff_pack_joint), offsetof(ff_pack_content, joints)},
     {FF_SECTION_POINTS, sizeof(ff_pack_point), offsetof(ff_pack_content, points)},
     {FF_SECTION_STREAMS, sizeof(ff_pack_stream), offsetof(ff_pack_content, streams)},
-    {FF_SECTION_REFERENCES, sizeof(ff_pack_reference), offsetof(ff_pack_content, references)},
+    {FF_SECTION_SLOTS, sizeof(ff_pack_slots), offsetof(ff_pack_content, slots)},
     {FF_SECTION_LANES, sizeof(ff_pack_lanes), offsetof(ff_pack_content, lanes)},
     {FF_SECTION_KEYS, 1, offsetof(ff_pack_content, keys)},
     {FF_SECTION_ROOTS, 3 * sizeof(float), offsetof(ff_pack_content, roots)},

@@ -8,7 +8,7 @@
 /* One array of records per section (element types as pack_format.h says). Zero it to start, push records, write,
  * free. strings and meta are built by ff_pack_add_string and ff_pack_set_meta. */
 typedef struct ff_pack_content {
-    ff_array strings, meta, joints, points, streams, references, lanes, keys, roots, clips, plants, actions,
+    ff_array strings, meta, joints, points, streams, slots, lanes, keys, roots, clips, plants, actions,
         colliders, examples, feet, simplices, hull, tracks, loops, correspondences, pairs, gait, gait_path,
         sharp, events, successors;
     ff_array joins; /* ff_action_joins of each action, for ff_pack_add_successors; not written */

@@ -64,7 +64,8 @@ typedef struct ff_plants {
 ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error);
 /* The same, then what a person wrote (plant_edit.h; NULL: nothing). Edits that do not fit fail with their line. */
 typedef struct ff_plant_edits ff_plant_edits;
-ff_status ff_plants_find_edited(const ff_clip *clip, const ff_plant_edits *edits, ff_plants *out, ff_error *error);
+ff_status ff_plants_find_edited(const ff_clip *clip, const ff_plant_edits *edits, ff_plants *out,
+                                ff_error *error);
 void ff_plants_free(ff_plants *plants);
 
 #endif

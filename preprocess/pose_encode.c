@@ -172,7 +172,7 @@ static double choose(encoder *e, double worth)
 
 static void choose_ways(encoder *e)
 {
-    double tables = sizeof(ff_pack_stream) + sizeof(ff_pack_reference) + FF_STREAM_SLACK +
+    double tables = sizeof(ff_pack_stream) + sizeof(ff_pack_slots) + FF_STREAM_SLACK +
                     (FF_LANES_MAX / 8.0 + 2.0) * sizeof(ff_pack_lanes);
     if (e->motion->root) tables += (e->fit[e->root_level].intervals + 3) * 3.0 * sizeof(float);
     double limit = ff_max(MOST - tables / e->seconds, LEAST_KEYS);
@@ -191,22 +191,31 @@ static void choose_ways(encoder *e)
 
 /* ------------------------------------------------------------------------------------------------------- writing */
 
+/* Room for one more lane of a run that has so many, and the slot that shows it. */
+static ff_pack_lanes *add_lane(const encoder *e, int index, int used, ff_pose_coded *out)
+{
+    int slot = e->lanes.lane[index].slot, part = slot / FF_STREAM_SLOTS;
+    if (used % 8 == 0) {
+        ff_pack_lanes *added = ff_array_grow(&out->lanes, 1, sizeof *added);
+        if (!added) return NULL;
+        memset(added, 0, sizeof *added);
+    }
+    size_t block = out->lanes.count - 1;
+    out->slots.lane[part][slot % FF_STREAM_SLOTS] = (uint8_t)(FF_LANE_FIRST + 8 * (int)block + used % 8);
+    if (part == 3) out->stream.flags |= FF_STREAM_FOUR_PARTS;
+    return (ff_pack_lanes *)out->lanes.data + block;
+}
+
 /* Lanes of one run (level and width) as blocks of eight; the codes into column after column of the level's keys. */
 static ff_status write_run(encoder *e, int level, bool wide, unsigned char *first, size_t stride,
                            ff_pose_coded *out, ff_error *error)
 {
     int used = 0, count = e->fit[level].intervals + 3;
-    ff_pack_lanes *block = NULL;
     for (int i = 0; i < e->lanes.count; ++i) {
         if (e->lanes.lane[i].still || e->way[i] != 2 * level + wide) continue;
-        if (used % 8 == 0) {
-            block = ff_array_grow(&out->lanes, 1, sizeof *block);
-            if (!block) return no_memory(e, error);
-            *block = (ff_pack_lanes){{0.0f}, {0.0f}, {0}};
-            memset(block->slot, FF_STREAM_NO_SLOT, sizeof block->slot);
-        }
+        ff_pack_lanes *block = add_lane(e, i, used, out);
+        if (!block) return no_memory(e, error);
         grid g = grid_of(e->keys[i][level], count, wide);
-        block->slot[used % 8] = (uint8_t)e->lanes.lane[i].slot;
         block->base[used % 8] = (float)(g.low - g.step * g.least);
         block->scale[used % 8] = (float)(g.step / (wide ? 32768.0 : 32768.0 * 256.0));
         for (int k = 0; k < count; ++k) {
@@ -245,18 +254,12 @@ static ff_status write_level(encoder *e, int number, ff_pose_coded *out, ff_erro
 
 static ff_status write_still(encoder *e, ff_pose_coded *out, ff_error *error)
 {
-    ff_pack_lanes *block = NULL;
     for (int i = 0; i < e->lanes.count; ++i) {
         if (!e->lanes.lane[i].still) continue;
-        uint32_t place = out->stream.still++ % 8;
-        if (place == 0) {
-            block = ff_array_grow(&out->lanes, 1, sizeof *block);
-            if (!block) return no_memory(e, error);
-            *block = (ff_pack_lanes){{0.0f}, {0.0f}, {0}};
-            memset(block->slot, FF_STREAM_NO_SLOT, sizeof block->slot);
-        }
-        block->slot[place] = (uint8_t)e->lanes.lane[i].slot;
-        block->base[place] = (float)e->lanes.lane[i].values[0];
+        int used = (int)out->stream.still++;
+        ff_pack_lanes *block = add_lane(e, i, used, out);
+        if (!block) return no_memory(e, error);
+        block->base[used % 8] = (float)e->lanes.lane[i].values[0];
     }
     return FF_OK;
 }
@@ -281,11 +284,13 @@ static ff_status write_all(encoder *e, ff_pose_coded *out, ff_error *error)
     out->stream.seconds = (float)e->seconds;
     for (int j = 0; j < FF_STREAM_SLOTS; ++j) {
         ff_quat q = j < FF_JOINT_COUNT ? e->lanes.reference[j] : FF_QUAT_IDENTITY;
-        out->reference.x[j] = (float)q.x;
-        out->reference.y[j] = (float)q.y;
-        out->reference.z[j] = (float)q.z;
-        out->reference.w[j] = (float)q.w;
+        out->slots.x[j] = (float)q.x;
+        out->slots.y[j] = (float)q.y;
+        out->slots.z[j] = (float)q.z;
+        out->slots.w[j] = (float)q.w;
     }
+    memset(out->slots.lane, FF_LANE_ZERO, sizeof out->slots.lane);
+    memset(out->slots.lane[3], FF_LANE_ONE, sizeof out->slots.lane[3]);
     for (int level = 0; level < FF_STREAM_LEVELS && status == FF_OK; ++level)
         status = write_level(e, level, out, error);
     if (status == FF_OK) status = write_still(e, out, error);
@@ -296,7 +301,7 @@ static ff_status write_all(encoder *e, ff_pose_coded *out, ff_error *error)
     memset(slack, 0, FF_STREAM_SLACK);
     double bytes = (double)(out->keys.count + out->lanes.count * sizeof(ff_pack_lanes) +
                             out->roots.count * 3 * sizeof(float)) +
-                   sizeof out->stream + sizeof out->reference;
+                   sizeof out->stream + sizeof out->slots;
     out->bytes_per_second = bytes / e->seconds;
     return FF_OK;
 }

@@ -23,7 +23,7 @@ typedef struct ff_pose_error {
 
 typedef struct ff_pose_coded {
     ff_pack_stream stream; /* places counted from the starts of the arrays below; frames not set */
-    ff_pack_reference reference;
+    ff_pack_slots slots;
     ff_array lanes, keys, roots; /* ff_pack_lanes, bytes, float[3] */
     ff_pose_error quantised;     /* against the splines before rounding */
     ff_pose_error whole;         /* against the motion: resampling and quantising */

@@ -83,7 +83,7 @@ ff_status ff_pose_measure(const ff_pack_joint *joints, const ff_pack_point *poin
     if (!h) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory measuring %d poses", motion->frame_count);
     struct ff_pack alone = {.streams = &coded->stream,
                             .stream_count = 1,
-                            .references = &coded->reference,
+                            .slots = &coded->slots,
                             .lanes = coded->lanes.data,
                             .keys = coded->keys.data,
                             .roots = coded->roots.data};
@@ -132,13 +132,13 @@ ff_status ff_pack_add_stream(ff_pack_content *content, const ff_pose_coded *code
     for (int i = 0; i < FF_STREAM_LEVELS; ++i)
         if (stream.level[i].intervals > 0) stream.level[i].first_byte += (uint32_t)content->keys.count;
     ff_pack_stream *out = ff_array_grow(&content->streams, 1, sizeof *out);
-    ff_pack_reference *reference = ff_array_grow(&content->references, 1, sizeof *reference);
-    if (!out || !reference || !append(&content->lanes, &coded->lanes, sizeof(ff_pack_lanes)) ||
+    ff_pack_slots *slots = ff_array_grow(&content->slots, 1, sizeof *slots);
+    if (!out || !slots || !append(&content->lanes, &coded->lanes, sizeof(ff_pack_lanes)) ||
         !append(&content->keys, &coded->keys, 1) ||
         !append(&content->roots, &coded->roots, 3 * sizeof(float)))
         return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory storing motion");
     *out = stream;
-    *reference = coded->reference;
+    *slots = coded->slots;
     *index = (uint32_t)(content->streams.count - 1);
     return FF_OK;
 }

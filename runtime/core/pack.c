@@ -29,7 +29,7 @@ enum {
     JOINTS,
     POINTS,
     STREAMS,
-    REFERENCES,
+    SLOTS,
     LANES,
     KEYS,
     ROOTS,
@@ -60,7 +60,7 @@ static const section_kind kinds[KIND_COUNT] = {
     [JOINTS] = {FF_SECTION_JOINTS, sizeof(ff_pack_joint), 1, 1},
     [POINTS] = {FF_SECTION_POINTS, sizeof(ff_pack_point), FF_POINT_COUNT, 1},
     [STREAMS] = {FF_SECTION_STREAMS, sizeof(ff_pack_stream), 1, 1},
-    [REFERENCES] = {FF_SECTION_REFERENCES, sizeof(ff_pack_reference), 1, 1},
+    [SLOTS] = {FF_SECTION_SLOTS, sizeof(ff_pack_slots), 1, 1},
     [LANES] = {FF_SECTION_LANES, sizeof(ff_pack_lanes), 1, 1},
     [KEYS] = {FF_SECTION_KEYS, 1, FF_STREAM_SLACK, 1},
     [ROOTS] = {FF_SECTION_ROOTS, 3 * sizeof(float), 0, 0},
@@ -207,8 +207,8 @@ static void take_views(ff_pack *pack, const section_view *views)
     pack->stream_count = (uint32_t)views[STREAMS].count; /* at least 1 */
     const ff_pack_stream *last = &pack->streams[pack->stream_count - 1];
     pack->frame_count = last->first_frame + last->frame_count;
-    pack->references = (const ff_pack_reference *)(const void *)views[REFERENCES].data;
-    pack->reference_count = (uint32_t)views[REFERENCES].count;
+    pack->slots = (const ff_pack_slots *)(const void *)views[SLOTS].data;
+    pack->slots_count = (uint32_t)views[SLOTS].count;
     pack->lanes = (const ff_pack_lanes *)(const void *)views[LANES].data;
     pack->lanes_count = (uint32_t)views[LANES].count;
     pack->keys = views[KEYS].data;

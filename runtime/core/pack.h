@@ -20,8 +20,8 @@ struct ff_pack {
     uint32_t point_count;
     const ff_pack_stream *streams;
     uint32_t stream_count;
-    const ff_pack_reference *references; /* [stream_count] */
-    uint32_t reference_count;
+    const ff_pack_slots *slots; /* [stream_count] */
+    uint32_t slots_count;
     const ff_pack_lanes *lanes;
     uint32_t lanes_count; /* blocks of eight */
     const unsigned char *keys;

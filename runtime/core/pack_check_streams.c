@@ -24,7 +24,7 @@ static ff_status check_frames(const ff_pack *pack, uint32_t index, uint64_t firs
     if (!(stream->rate >= 1.0f && stream->rate <= 1000.0f))
         return FF_PACK_REFUSE("STRM", &stream->rate, "stream %u: %g frames per second", index,
                               (double)stream->rate);
-    if (stream->flags & ~(uint32_t)FF_STREAM_CYCLIC)
+    if (stream->flags & ~(uint32_t)(FF_STREAM_CYCLIC | FF_STREAM_FOUR_PARTS))
         return FF_PACK_REFUSE("STRM", &stream->flags, "stream %u: unknown flags %x", index, stream->flags);
     uint32_t spans = stream->frame_count - (stream->flags & FF_STREAM_CYCLIC ? 0 : 1);
     if (!(stream->seconds > 0.0f && stream->seconds <= MAX_SECONDS &&
@@ -60,20 +60,32 @@ static ff_status check_level(const ff_pack *pack, uint32_t index, int number, ff
     return FF_OK;
 }
 
-static bool slot_known(unsigned slot)
+/* Does a run of lanes that begins at *block hold the lane of this number? Moves on to the block after it. */
+static bool run_holds(uint32_t *block, uint32_t lanes, uint32_t lane)
 {
-    unsigned joint = slot % FF_STREAM_SLOTS, component = slot / FF_STREAM_SLOTS;
-    if (component > 3) return false;
-    return joint < FF_JOINT_COUNT || (joint == FF_STREAM_HIPS && component < 3) || slot == FF_STREAM_NO_SLOT;
+    uint32_t first = FF_LANE_FIRST + 8 * *block;
+    *block += (lanes + 7) / 8;
+    return lane >= first && lane - first < lanes;
+}
+
+static bool lane_known(const ff_pack_stream *stream, uint32_t lane)
+{
+    uint32_t block = 0;
+    bool known = lane == FF_LANE_ZERO || lane == FF_LANE_ONE;
+    for (int i = 0; i < FF_STREAM_LEVELS; ++i) {
+        known |= run_holds(&block, stream->level[i].wide, lane);
+        known |= run_holds(&block, stream->level[i].narrow, lane);
+    }
+    return known | run_holds(&block, stream->still, lane);
 }
 
 static ff_status check_lanes(const ff_pack *pack, uint32_t index, ff_error *error)
 {
     uint32_t count = ff_stream_lane_blocks(&pack->streams[index]), first = pack->streams[index].first_lanes;
-    if (!ff_pack_range_fits(first, count, pack->lanes_count))
+    if (count > FF_STREAM_BLOCKS || !ff_pack_range_fits(first, count, pack->lanes_count))
         return FF_PACK_REFUSE("STRM", &pack->streams[index].first_lanes,
-                              "stream %u: %u blocks of lanes from %u on of %u", index, count, first,
-                              pack->lanes_count);
+                              "stream %u: %u blocks of lanes from %u on of %u, at most %d", index, count,
+                              first, pack->lanes_count, FF_STREAM_BLOCKS);
     for (uint32_t b = first; b < first + count; ++b)
         for (int i = 0; i < 8; ++i) {
             const ff_pack_lanes *lanes = &pack->lanes[b];
@@ -81,9 +93,6 @@ static ff_status check_lanes(const ff_pack *pack, uint32_t index, ff_error *erro
                 return FF_PACK_REFUSE("LANE", &lanes->base[i], "lane %u of stream %u: from %g by %g",
                                       8 * (b - first) + (uint32_t)i, index, (double)lanes->base[i],
                                       (double)lanes->scale[i]);
-            if (!slot_known(lanes->slot[i]))
-                return FF_PACK_REFUSE("LANE", &lanes->slot[i], "lane %u of stream %u is for slot %u",
-                                      8 * (b - first) + (uint32_t)i, index, lanes->slot[i]);
         }
     return FF_OK;
 }
@@ -101,24 +110,33 @@ static ff_status check_roots(const ff_pack *pack, uint32_t index, ff_error *erro
     return FF_OK;
 }
 
-static ff_status check_reference(const ff_pack *pack, uint32_t index, ff_error *error)
+static ff_status check_slots(const ff_pack *pack, uint32_t index, ff_error *error)
 {
-    const ff_pack_reference *r = &pack->references[index];
+    const ff_pack_stream *stream = &pack->streams[index];
+    const ff_pack_slots *s = &pack->slots[index];
     for (int j = 0; j < FF_JOINT_COUNT; ++j) {
-        double x = (double)r->x[j], y = (double)r->y[j], z = (double)r->z[j], w = (double)r->w[j];
+        double x = (double)s->x[j], y = (double)s->y[j], z = (double)s->z[j], w = (double)s->w[j];
         if (!(fabs(x * x + y * y + z * z + w * w - 1.0) <= 1e-3))
-            return FF_PACK_REFUSE("REFS", &r->x[j],
+            return FF_PACK_REFUSE("SLOT", &s->x[j],
                                   "the reference of joint %d of stream %u is not a unit quaternion", j,
                                   index);
     }
+    for (int c = 0; c < 4; ++c)
+        for (int j = 0; j < FF_STREAM_SLOTS; ++j) {
+            uint32_t lane = s->lane[c][j];
+            bool three = c == 3 && !(stream->flags & FF_STREAM_FOUR_PARTS);
+            if (!lane_known(stream, lane) || (three && lane != FF_LANE_ONE))
+                return FF_PACK_REFUSE("SLOT", &s->lane[c][j],
+                                      "slot %d of joint %d of stream %u shows lane %u", c, j, index, lane);
+        }
     return FF_OK;
 }
 
 ff_status ff_pack_check_streams(const ff_pack *pack, ff_error *error)
 {
     uint64_t first_frame = 0;
-    if (pack->reference_count != pack->stream_count)
-        return FF_PACK_REFUSE("REFS", pack->references, "%u references for %u streams", pack->reference_count,
+    if (pack->slots_count != pack->stream_count)
+        return FF_PACK_REFUSE("SLOT", pack->slots, "%u records for %u streams", pack->slots_count,
                               pack->stream_count);
     for (uint32_t i = 0; i < pack->stream_count; ++i) {
         ff_status status = check_frames(pack, i, first_frame, error);
@@ -126,7 +144,7 @@ ff_status ff_pack_check_streams(const ff_pack *pack, ff_error *error)
             status = check_level(pack, i, k, error);
         if (status == FF_OK) status = check_lanes(pack, i, error);
         if (status == FF_OK) status = check_roots(pack, i, error);
-        if (status == FF_OK) status = check_reference(pack, i, error);
+        if (status == FF_OK) status = check_slots(pack, i, error);
         if (status != FF_OK) return status;
         first_frame += pack->streams[i].frame_count;
     }

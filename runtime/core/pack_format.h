@@ -18,23 +18,23 @@
 
 #define FF_TAG(a, b, c, d) ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
 enum {
-    FF_SECTION_STRINGS = FF_TAG('S', 'T', 'R', 'S'),    /* char */
-    FF_SECTION_META = FF_TAG('M', 'E', 'T', 'A'),       /* char: provenance and settings as JSON text */
-    FF_SECTION_JOINTS = FF_TAG('J', 'N', 'T', 'S'),     /* ff_pack_joint */
-    FF_SECTION_POINTS = FF_TAG('P', 'N', 'T', 'S'),     /* ff_pack_point */
-    FF_SECTION_STREAMS = FF_TAG('S', 'T', 'R', 'M'),    /* ff_pack_stream */
-    FF_SECTION_REFERENCES = FF_TAG('R', 'E', 'F', 'S'), /* ff_pack_reference: one per stream */
-    FF_SECTION_LANES = FF_TAG('L', 'A', 'N', 'E'),      /* ff_pack_lanes */
-    FF_SECTION_KEYS = FF_TAG('K', 'E', 'Y', 'S'),       /* bytes */
-    FF_SECTION_ROOTS = FF_TAG('R', 'O', 'O', 'T'),      /* float[3]: a (m), b (m), heading (rad, unwrapped) */
-    FF_SECTION_CLIPS = FF_TAG('C', 'L', 'I', 'P'),      /* ff_pack_clip */
-    FF_SECTION_PLANTS = FF_TAG('P', 'L', 'N', 'T'),     /* ff_pack_plant */
-    FF_SECTION_ACTIONS = FF_TAG('A', 'C', 'T', 'N'),    /* ff_pack_action */
-    FF_SECTION_COLLIDERS = FF_TAG('C', 'O', 'L', 'L'),  /* ff_pack_collider */
-    FF_SECTION_EXAMPLES = FF_TAG('E', 'X', 'M', 'P'),   /* ff_pack_example */
-    FF_SECTION_FEET = FF_TAG('F', 'E', 'E', 'T'),       /* ff_pack_foot: per example frame, left then right */
-    FF_SECTION_SIMPLICES = FF_TAG('S', 'M', 'P', 'X'),  /* ff_pack_simplex */
-    FF_SECTION_HULL = FF_TAG('H', 'U', 'L', 'L'),       /* ff_pack_point2, counter-clockwise in (f, l) */
+    FF_SECTION_STRINGS = FF_TAG('S', 'T', 'R', 'S'),   /* char */
+    FF_SECTION_META = FF_TAG('M', 'E', 'T', 'A'),      /* char: provenance and settings as JSON text */
+    FF_SECTION_JOINTS = FF_TAG('J', 'N', 'T', 'S'),    /* ff_pack_joint */
+    FF_SECTION_POINTS = FF_TAG('P', 'N', 'T', 'S'),    /* ff_pack_point */
+    FF_SECTION_STREAMS = FF_TAG('S', 'T', 'R', 'M'),   /* ff_pack_stream */
+    FF_SECTION_SLOTS = FF_TAG('S', 'L', 'O', 'T'),     /* ff_pack_slots: one per stream */
+    FF_SECTION_LANES = FF_TAG('L', 'A', 'N', 'E'),     /* ff_pack_lanes */
+    FF_SECTION_KEYS = FF_TAG('K', 'E', 'Y', 'S'),      /* bytes */
+    FF_SECTION_ROOTS = FF_TAG('R', 'O', 'O', 'T'),     /* float[3]: a (m), b (m), heading (rad, unwrapped) */
+    FF_SECTION_CLIPS = FF_TAG('C', 'L', 'I', 'P'),     /* ff_pack_clip */
+    FF_SECTION_PLANTS = FF_TAG('P', 'L', 'N', 'T'),    /* ff_pack_plant */
+    FF_SECTION_ACTIONS = FF_TAG('A', 'C', 'T', 'N'),   /* ff_pack_action */
+    FF_SECTION_COLLIDERS = FF_TAG('C', 'O', 'L', 'L'), /* ff_pack_collider */
+    FF_SECTION_EXAMPLES = FF_TAG('E', 'X', 'M', 'P'),  /* ff_pack_example */
+    FF_SECTION_FEET = FF_TAG('F', 'E', 'E', 'T'),      /* ff_pack_foot: per example frame, left then right */
+    FF_SECTION_SIMPLICES = FF_TAG('S', 'M', 'P', 'X'), /* ff_pack_simplex */
+    FF_SECTION_HULL = FF_TAG('H', 'U', 'L', 'L'),      /* ff_pack_point2, counter-clockwise in (f, l) */
     FF_SECTION_TRACKS =
         FF_TAG('T', 'R', 'C', 'K'), /* ff_pack_track: per clip frame, left then right; optional */
     FF_SECTION_LOOPS = FF_TAG('L', 'O', 'O', 'P'),           /* ff_pack_loop: one per example, or none */
@@ -43,7 +43,7 @@ enum {
     FF_SECTION_GAIT = FF_TAG('G', 'A', 'I', 'T'),            /* ff_pack_gait: one, or none */
     FF_SECTION_GAIT_PATH = FF_TAG('G', 'P', 'T', 'H'),       /* ff_pack_gait_path: FF_GAIT_SAMPLES, or none */
     FF_SECTION_SHARP = FF_TAG('S', 'H', 'R', 'P'),           /* ff_pack_sharp */
-    FF_SECTION_EVENTS = FF_TAG('E', 'V', 'N', 'T'),     /* ff_pack_event: of actions, in order of time */
+    FF_SECTION_EVENTS = FF_TAG('E', 'V', 'N', 'T'),          /* ff_pack_event: of actions, in order of time */
     FF_SECTION_SUCCESSORS = FF_TAG('N', 'E', 'X', 'T'), /* ff_pack_successor: of actions, nearest first */
 };
 #define FF_PACK_SECTION_COUNT 26
@@ -94,15 +94,15 @@ typedef struct ff_pack_point {
 /* A stream is a motion as uniform cubic B-splines: values between keys k and k + 1 come from the four keys from k on,
  * with weights that are sums of thirds and sixths, so any moment needs four neighbouring keys and nothing else.
  *
- * The values are numbered by slot = FF_STREAM_SLOTS * component + joint. Joint j's local rotation is, up to length,
- * reference * (x, y, z, w), w = 1 unless its slot has a lane. "Joint" FF_STREAM_HIPS holds the position of the hips in
- * the root's frame: forward, left, height. A slot that moves has a lane: keys of 8 bits (narrow) or 16 (wide) at one of
- * FF_STREAM_LEVELS rates. One that stands still has a lane without keys, or none where it would be 0 (w: 1).
+ * What moves is a lane: keys of 8 bits (narrow) or 16 (wide) at one of FF_STREAM_LEVELS rates, or none (a lane that
+ * stands still at a value). The pose is made of slots [component][joint]: joint j's local rotation is, up to length,
+ * reference * (x, y, z, w), and "joint" FF_STREAM_HIPS holds the position of the hips in the root's frame: forward,
+ * left, height. A slot without a lane is 0 or 1 (w, unless flagged FF_STREAM_FOUR_PARTS, is always 1).
  *
  * A frame is a moment k / rate of a stream for which FEET and TRCK have records; frames are numbered through all streams.
  * A cyclic stream of n frames spans n intervals, any other one n - 1 or a little more. */
-enum { FF_STREAM_CYCLIC = 1 };
-enum { FF_STREAM_LEVELS = 4, FF_STREAM_SLOTS = 24, FF_STREAM_HIPS = 21, FF_STREAM_NO_SLOT = 95 };
+enum { FF_STREAM_CYCLIC = 1, FF_STREAM_FOUR_PARTS = 2 };
+enum { FF_STREAM_LEVELS = 4, FF_STREAM_SLOTS = 24, FF_STREAM_HIPS = 21, FF_STREAM_BLOCKS = 31 };
 
 /* Keys 0 to intervals + 2 of all lanes of one rate; intervals span the stream. A key holds the wide lanes as int16, then
  * the narrow ones as int8, then a 0 where the number of narrow ones is odd. A cyclic stream's last three keys are its
@@ -118,24 +118,28 @@ typedef struct ff_pack_stream {
     uint32_t first_frame, frame_count;
     float rate; /* frames per second */
     uint32_t flags;
-    float seconds;           /* from the first to the last moment, or round the cycle */
-    uint32_t first_lanes;    /* into LANE: per level the wide, then the narrow lanes, then the still ones */
+    float seconds; /* from the first to the last moment, or round the cycle */
+    /* Into LANE: per level the wide, then the narrow lanes, then the still ones. Each run of lanes begins a block; at
+     * most FF_STREAM_BLOCKS of them. */
+    uint32_t first_lanes;
     uint32_t still;          /* lanes without keys */
     uint32_t first_root;     /* into ROOT */
     uint32_t root_intervals; /* 0: no keys, the root stays at zero; else keys 0 to root_intervals + 2 */
     ff_pack_level level[FF_STREAM_LEVELS];
 } ff_pack_stream;
 
-/* Joint j's: (x[j], y[j], z[j], w[j]). */
-typedef struct ff_pack_reference {
+/* Per stream: the reference rotations, joint j's at [j], and what each slot shows: FF_LANE_ZERO, FF_LANE_ONE, or
+ * FF_LANE_FIRST + 8 * block + place in the block. */
+enum { FF_LANE_ZERO, FF_LANE_ONE, FF_LANE_FIRST = 8 };
+typedef struct ff_pack_slots {
     float x[FF_STREAM_SLOTS], y[FF_STREAM_SLOTS], z[FF_STREAM_SLOTS], w[FF_STREAM_SLOTS];
-} ff_pack_reference;
+    uint8_t lane[4][FF_STREAM_SLOTS];
+} ff_pack_slots;
 
-/* Up to eight lanes (unused ones: FF_STREAM_NO_SLOT). The value is base + scale * S; S = sum of W_i k_i over the four keys,
- * W_i the weights in 32768ths, a narrow k_i times 256. */
+/* A block of up to eight lanes (0 where unused). The value is base + scale * S; S = sum of W_i k_i over the four keys, W_i
+ * the weights in 32768ths, a narrow k_i times 256. */
 typedef struct ff_pack_lanes {
     float base[8], scale[8];
-    uint8_t slot[8];
 } ff_pack_lanes;
 
 /* A derived clip was made from a captured one for an action that no clip shows; source, licence and citation are that

@@ -7,7 +7,6 @@
 
 #include <string.h>
 
-#define W_SLOTS (3 * FF_STREAM_SLOTS)
 #define SMALLEST 1e-6f /* squared length below which four parts say nothing of a rotation */
 
 /* Where the same joint is on the other side. */
@@ -16,9 +15,9 @@ static const uint8_t mirror_of[FF_STREAM_SLOTS] = {0, 1,  2,  3,  4,  9,  10, 11
 static const uint8_t itself[FF_STREAM_SLOTS] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11,
                                                 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
 
-/* Values by slot, as a row per component. */
+/* What a stream's lanes say at a moment, numbered as ff_pack_slots does. */
 typedef struct values {
-    _Alignas(16) float at[4 * FF_STREAM_SLOTS];
+    _Alignas(16) float at[FF_LANE_FIRST + 8 * FF_STREAM_BLOCKS];
 } values;
 
 double ff_stream_fraction(const ff_pack_stream *stream, double time)
@@ -31,25 +30,13 @@ double ff_stream_fraction(const ff_pack_stream *stream, double time)
     return ff_clamp(fraction, 0.0, 1.0);
 }
 
-static void spline_weights(double t, double w[4])
+void ff_stream_weights(float t, int32_t weights[4])
 {
-    double s = 1.0 - t, t2 = t * t;
-    w[0] = s * s * s * (1.0 / 6.0);
-    w[2] = (1.0 + 3.0 * (t + t2 - t2 * t)) * (1.0 / 6.0);
-    w[3] = t2 * t * (1.0 / 6.0);
-    w[1] = 1.0 - w[0] - w[2] - w[3];
-}
-
-void ff_stream_weights(double t, int16_t weights[4])
-{
-    double w[4];
-    spline_weights(t, w);
-    int near = (int)(w[0] * 32768.0 + 0.5), after = (int)(w[2] * 32768.0 + 0.5),
-        far = (int)(w[3] * 32768.0 + 0.5);
-    weights[0] = (int16_t)near;
-    weights[1] = (int16_t)(32768 - near - after - far);
-    weights[2] = (int16_t)after;
-    weights[3] = (int16_t)far;
+    float s = 1.0f - t, t2 = t * t, t3 = t2 * t;
+    weights[0] = (int32_t)(s * s * s * (32768.0f / 6.0f) + 0.5f);
+    weights[2] = (int32_t)((1.0f + 3.0f * ((t + t2) - t3)) * (32768.0f / 6.0f) + 0.5f);
+    weights[3] = (int32_t)(t3 * (32768.0f / 6.0f) + 0.5f);
+    weights[1] = 32768 - weights[0] - weights[2] - weights[3];
 }
 
 /* The key before a place, and how far on towards the next one the place is. */
@@ -67,9 +54,13 @@ void ff_stream_root(const ff_pack *pack, uint32_t index, double fraction, double
     const ff_pack_stream *stream = &pack->streams[index];
     root[0] = root[1] = root[2] = 0.0;
     if (stream->root_intervals == 0) return;
-    double t, w[4];
+    double t;
     uint32_t key = key_at(fraction, stream->root_intervals, &t);
-    spline_weights(t, w);
+    double s = 1.0 - t, t2 = t * t, t3 = t2 * t, w[4];
+    w[0] = s * s * s / 6.0;
+    w[2] = (1.0 + 3.0 * (t + t2 - t3)) / 6.0;
+    w[3] = t3 / 6.0;
+    w[1] = 1.0 - w[0] - w[2] - w[3];
     const float(*at)[3] = pack->roots + stream->first_root + key;
     for (int i = 0; i < 3; ++i)
         root[i] = w[0] * (double)at[0][i] + w[1] * (double)at[1][i] + w[2] * (double)at[2][i] +
@@ -81,95 +72,95 @@ static bool has_lanes(const ff_pack_level *level)
     return level->wide + level->narrow > 0;
 }
 
-/* Where each of the four keys of a level is, and their weights. */
-typedef struct place {
-    const unsigned char *key[4];
-    int16_t weight[4];
-} place;
-
-static place place_on(const ff_pack *pack, const ff_pack_level *level, double fraction)
+/* The first of a level's four keys, and how far on towards the second-next the moment is. */
+static const unsigned char *first_key(const ff_pack *pack, const ff_pack_level *level, double fraction,
+                                      float *t)
 {
-    place p;
-    double t;
-    size_t stride = ff_level_stride(level), key = key_at(fraction, level->intervals, &t);
-    ff_stream_weights(t, p.weight);
-    p.key[0] = pack->keys + level->first_byte + key * stride;
-    for (int i = 1; i < 4; ++i)
-        p.key[i] = p.key[i - 1] + stride;
-    return p;
+    double on;
+    size_t key = key_at(fraction, level->intervals, &on);
+    *t = (float)on;
+    return pack->keys + level->first_byte + key * ff_level_stride(level);
 }
 
-/* Slots without a lane: rotations are their references, the hips are in the root. */
-static void clear(values *out)
+static void read_constants(values *now)
 {
-    memset(out->at, 0, W_SLOTS * sizeof *out->at);
-    for (int j = 0; j < FF_STREAM_SLOTS; ++j)
-        out->at[W_SLOTS + j] = 1.0f;
+    now->at[FF_LANE_ZERO] = 0.0f;
+    now->at[FF_LANE_ONE] = 1.0f;
 }
 
-static void read_still(const ff_pack_lanes *lanes, uint32_t count, values *out)
+static void read_still(const ff_pack_lanes *lanes, uint32_t count, float *out)
 {
     for (uint32_t i = 0; i < count; ++i)
-        out->at[lanes[i / 8].slot[i % 8]] = lanes[i / 8].base[i % 8];
+        out[i] = lanes[i / 8].base[i % 8];
 }
 
-static ff_vec3 hips_of(const values *from, bool mirrored)
+static ff_vec3 hips_of(const values *now, const ff_pack_slots *slots, bool mirrored)
 {
-    const float *at = from->at + FF_STREAM_HIPS;
-    double left = (double)at[FF_STREAM_SLOTS];
-    return ff_v3(mirrored ? 0.0 - left : left, (double)at[2 * FF_STREAM_SLOTS], (double)at[0]);
+    double part[3];
+    for (int c = 0; c < 3; ++c)
+        part[c] = (double)now->at[slots->lane[c][FF_STREAM_HIPS]];
+    return ff_v3(mirrored ? 0.0 - part[1] : part[1], part[2], part[0]);
 }
 
 /* -------------------------------------------------------------------------------------------------- in plain C */
 
-static int32_t sum_wide(const place *p, uint32_t lane)
+static int32_t wide_key(const unsigned char *at)
 {
-    int32_t sum = 0;
-    for (int i = 0; i < 4; ++i) {
-        int16_t key;
-        memcpy(&key, p->key[i] + 2 * (size_t)lane, sizeof key);
-        sum += p->weight[i] * key;
-    }
-    return sum;
+    int16_t key;
+    memcpy(&key, at, sizeof key);
+    return key;
 }
 
-static int32_t sum_narrow(const place *p, size_t at)
+static int32_t narrow_key(const unsigned char *at)
 {
-    int32_t sum = 0;
-    for (int i = 0; i < 4; ++i)
-        sum += p->weight[i] * ((signed char)p->key[i][at] * 256);
-    return sum;
+    return (signed char)*at * 256;
 }
 
-static const ff_pack_lanes *read_level_plain(const ff_pack *pack, const ff_pack_level *level, double fraction,
-                                             const ff_pack_lanes *lanes, values *out)
+static float value_of(const ff_pack_lanes *lanes, uint32_t i, int32_t sum)
 {
-    place p = place_on(pack, level, fraction);
+    return lanes[i / 8].base[i % 8] + lanes[i / 8].scale[i % 8] * (float)sum;
+}
+
+/* One level's lanes from block on; returns the block after them. */
+static uint32_t read_level_plain(const ff_pack *pack, const ff_pack_level *level, double fraction,
+                                 const ff_pack_lanes *lanes, uint32_t block, values *now)
+{
+    float t, *out = now->at + FF_LANE_FIRST + 8 * block;
+    int32_t w[4];
+    size_t stride = ff_level_stride(level);
+    const unsigned char *k0 = first_key(pack, level, fraction, &t), *k1 = k0 + stride, *k2 = k1 + stride,
+                        *k3 = k2 + stride;
+    ff_stream_weights(t, w);
+    lanes += block;
     for (uint32_t i = 0; i < level->wide; ++i) {
-        const ff_pack_lanes *l = &lanes[i / 8];
-        out->at[l->slot[i % 8]] = l->base[i % 8] + l->scale[i % 8] * (float)sum_wide(&p, i);
+        size_t at = 2 * (size_t)i;
+        out[i] = value_of(lanes, i,
+                          w[0] * wide_key(k0 + at) + w[1] * wide_key(k1 + at) + w[2] * wide_key(k2 + at) +
+                              w[3] * wide_key(k3 + at));
     }
-    lanes += (level->wide + 7u) / 8u;
+    uint32_t wide_blocks = (level->wide + 7u) / 8u;
+    lanes += wide_blocks;
+    out += 8 * wide_blocks;
     for (uint32_t i = 0; i < level->narrow; ++i) {
-        const ff_pack_lanes *l = &lanes[i / 8];
         size_t at = 2 * (size_t)level->wide + i;
-        out->at[l->slot[i % 8]] = l->base[i % 8] + l->scale[i % 8] * (float)sum_narrow(&p, at);
+        out[i] = value_of(lanes, i,
+                          w[0] * narrow_key(k0 + at) + w[1] * narrow_key(k1 + at) +
+                              w[2] * narrow_key(k2 + at) + w[3] * narrow_key(k3 + at));
     }
-    return lanes + (level->narrow + 7u) / 8u;
+    return block + wide_blocks + (level->narrow + 7u) / 8u;
 }
 
-static void rotations_plain(const values *from, const ff_pack_reference *reference, bool mirrored,
-                            ff_quat *rotations)
+static void rotations_plain(const values *now, const ff_pack_slots *slots, bool mirrored, ff_quat *rotations)
 {
-    const float *at = from->at;
     const uint8_t *to = mirrored ? mirror_of : itself;
     float side = mirrored ? -1.0f : 1.0f;
     for (int j = 0; j < FF_JOINT_COUNT; ++j) {
-        float x = at[j], y = at[FF_STREAM_SLOTS + j], z = at[2 * FF_STREAM_SLOTS + j], w = at[W_SLOTS + j];
+        float x = now->at[slots->lane[0][j]], y = now->at[slots->lane[1][j]], z = now->at[slots->lane[2][j]],
+              w = now->at[slots->lane[3][j]];
         float n = (x * x + y * y) + (z * z + w * w);
         if (!(n > SMALLEST)) x = y = z = 0.0f, w = n = 1.0f;
         float r = 1.0f / sqrtf(n);
-        float a = reference->x[j], b = reference->y[j], c = reference->z[j], d = reference->w[j];
+        float a = slots->x[j], b = slots->y[j], c = slots->z[j], d = slots->w[j];
         float qx = ((d * x + a * w) + (b * z - c * y)) * r;
         float qy = ((d * y + b * w) + (c * x - a * z)) * r * side;
         float qz = ((d * z + c * w) + (a * y - b * x)) * r * side;
@@ -182,15 +173,17 @@ void ff_stream_pose_plain(const ff_pack *pack, uint32_t index, double fraction, 
                           ff_quat *rotations)
 {
     const ff_pack_stream *stream = &pack->streams[index];
+    const ff_pack_slots *slots = &pack->slots[index];
     const ff_pack_lanes *lanes = pack->lanes + stream->first_lanes;
+    uint32_t block = 0;
     values now;
-    clear(&now);
+    read_constants(&now);
     for (int i = 0; i < FF_STREAM_LEVELS; ++i)
         if (has_lanes(&stream->level[i]))
-            lanes = read_level_plain(pack, &stream->level[i], fraction, lanes, &now);
-    read_still(lanes, stream->still, &now);
-    if (hips) *hips = hips_of(&now, mirrored);
-    if (rotations) rotations_plain(&now, &pack->references[index], mirrored, rotations);
+            block = read_level_plain(pack, &stream->level[i], fraction, lanes, block, &now);
+    read_still(lanes + block, stream->still, now.at + FF_LANE_FIRST + 8 * block);
+    if (hips) *hips = hips_of(&now, slots, mirrored);
+    if (rotations) rotations_plain(&now, slots, mirrored, rotations);
 }
 
 /* ----------------------------------------------------------------------------------------------------- with SSE2 */
@@ -202,15 +195,13 @@ void ff_stream_pose(const ff_pack *pack, uint32_t index, double fraction, bool m
                     ff_quat *rotations)
 {
     const ff_pack_stream *stream = &pack->streams[index];
-    const ff_pack_lanes *lanes = pack->lanes + stream->first_lanes;
+    const ff_pack_slots *slots = &pack->slots[index];
     values now;
-    clear(&now);
-    for (int i = 0; i < FF_STREAM_LEVELS; ++i)
-        if (has_lanes(&stream->level[i]))
-            lanes = read_level_sse2(pack, &stream->level[i], fraction, lanes, &now);
-    read_still(lanes, stream->still, &now);
-    if (hips) *hips = hips_of(&now, mirrored);
-    if (rotations) rotations_sse2(&now, &pack->references[index], mirrored, rotations);
+    read_constants(&now);
+    read_levels_sse2(pack, stream, fraction, &now);
+    if (hips) *hips = hips_of(&now, slots, mirrored);
+    if (rotations)
+        rotations_sse2(&now, slots, (stream->flags & FF_STREAM_FOUR_PARTS) != 0, mirrored, rotations);
 }
 #else
 void ff_stream_pose(const ff_pack *pack, uint32_t stream, double fraction, bool mirrored, ff_vec3 *hips,

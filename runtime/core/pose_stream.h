@@ -23,7 +23,7 @@ static inline uint32_t ff_stream_lane_blocks(const ff_pack_stream *stream)
 double ff_stream_fraction(const ff_pack_stream *stream, double time);
 
 /* The four weights of a uniform cubic B-spline between two keys, 0 <= t <= 1, in 32768ths; their sum is exactly 1. */
-void ff_stream_weights(double t, int16_t weights[4]);
+void ff_stream_weights(float t, int32_t weights[4]);
 
 /* Root on the ground: a, b, heading. */
 void ff_stream_root(const ff_pack *pack, uint32_t stream, double fraction, double root[3]);

@@ -195,7 +195,7 @@ static void measure(source *sources, int count, const ff_rig *rig, bool clean)
         if (ff_pack_add_stream(&content, &coded[i], 1, 60.0, &stream, &error) != FF_OK) give_up(&error);
         struct ff_pack alone = {.streams = &coded[i].stream,
                                 .stream_count = 1,
-                                .references = &coded[i].reference,
+                                .slots = &coded[i].slots,
                                 .lanes = coded[i].lanes.data,
                                 .keys = coded[i].keys.data,
                                 .roots = coded[i].roots.data};
@@ -212,7 +212,7 @@ static void measure(source *sources, int count, const ff_rig *rig, bool clean)
     printf("storing took %.2f s of processor time per minute of motion\n", spent / (all.seconds / 60.0));
     struct ff_pack pack = {.streams = content.streams.data,
                            .stream_count = (uint32_t)content.streams.count,
-                           .references = content.references.data,
+                           .slots = content.slots.data,
                            .lanes = content.lanes.data,
                            .keys = content.keys.data,
                            .key_bytes = (uint32_t)content.keys.count,

@@ -35,8 +35,8 @@ static void records_have_no_hidden_padding(void **state)
     assert_int_equal(sizeof(ff_pack_joint), 24);
     assert_int_equal(sizeof(ff_pack_level), 12);
     assert_int_equal(sizeof(ff_pack_stream), 9 * 4 + 4 * 12);
-    assert_int_equal(sizeof(ff_pack_reference), 4 * 24 * 4);
-    assert_int_equal(sizeof(ff_pack_lanes), 72);
+    assert_int_equal(sizeof(ff_pack_slots), 4 * 24 * 5);
+    assert_int_equal(sizeof(ff_pack_lanes), 64);
     assert_int_equal(sizeof(ff_pack_clip), 10 * 4 + 8 + 6 * 4);
     assert_int_equal(sizeof(ff_pack_plant), 13 * 4);
     assert_int_equal(sizeof(ff_pack_action), 42 * 4);
