@@ -39,15 +39,26 @@ static const char *example_kind(const ff_pack_example *example, char *text, size
 
 /* ------------------------------------------------------------------------------------------------- for people */
 
+/* mm, from the poses of a clip's entry in META; 0 where there are none. */
+static double stored_error(const json_t *poses, const char *member)
+{
+    return 1e3 * json_number_value(json_object_get(json_object_get(poses, "whole"), member));
+}
+
 static void print_clips(const ff_pack *pack)
 {
-    printf("\nclips\n  %-24s %7s %5s %6s %7s  %s\n", "name", "s", "Hz", "plants", "actions", "source");
+    json_t *meta = json_loadb(pack->meta, (size_t)pack->meta_size, 0, NULL);
+    printf("\nclips%67s\n  %-24s %7s %5s %6s %7s %5s %5s %5s  %s\n", "off by, mm", "name", "s", "Hz",
+           "plants", "actions", "kB/s", "mean", "p99", "source");
     for (uint32_t i = 0; i < pack->clip_count; ++i) {
         const ff_pack_clip *clip = &pack->clips[i];
-        printf("  %-24s %7.2f %5.0f %6u %7u  %s\n", ff_pack_string(pack, clip->name),
+        const json_t *poses = json_object_get(json_array_get(json_object_get(meta, "clips"), i), "poses");
+        printf("  %-24s %7.2f %5.0f %6u %7u %5.1f %5.2f %5.2f  %s\n", ff_pack_string(pack, clip->name),
                clip_seconds(pack, clip), (double)clip->source_rate, clip->plant_count, clip->action_count,
-               ff_pack_string(pack, clip->source));
+               1e-3 * json_number_value(json_object_get(poses, "bytes_per_second")),
+               stored_error(poses, "mean"), stored_error(poses, "p99"), ff_pack_string(pack, clip->source));
     }
+    json_decref(meta);
 }
 
 static void print_actions(const ff_pack *pack)

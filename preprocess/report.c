@@ -102,6 +102,25 @@ static void write_breaks(ff_text *page, const json_t *broken)
     ff_text_add(page, "</ul></details>\n");
 }
 
+static void write_error(ff_text *page, const char *what, const json_t *error)
+{
+    ff_text_add(page, "; %s %.2f mm on average, %.2f mm at the 99th percentile, %.1f mm at worst", what,
+                1e3 * json_number_value(json_object_get(error, "mean")),
+                1e3 * json_number_value(json_object_get(error, "p99")),
+                1e3 * json_number_value(json_object_get(error, "max")));
+}
+
+/* What storing the motion cost: poses is the clip's entry of META. */
+static void write_poses(ff_text *page, const json_t *poses)
+{
+    if (!poses) return;
+    ff_text_add(page, "<p><small>Stored in %.1f kB per second",
+                1e-3 * json_number_value(json_object_get(poses, "bytes_per_second")));
+    write_error(page, "joints and tips are off by", json_object_get(poses, "whole"));
+    write_error(page, "of that quantising alone", json_object_get(poses, "quantised"));
+    ff_text_add(page, ".</small></p>\n");
+}
+
 static void write_clip(ff_text *page, const ff_pack *pack, uint32_t index, const json_t *meta)
 {
     const ff_pack_clip *clip = &pack->clips[index];
@@ -123,6 +142,7 @@ static void write_clip(ff_text *page, const ff_pack *pack, uint32_t index, const
     ff_report_timeline(page, pack, clip, entry);
     write_breaks(page, json_object_get(entry, "broken"));
     ff_report_clean(page, json_object_get(entry, "clean"));
+    write_poses(page, json_object_get(entry, "poses"));
     ff_report_steps(page, pack, clip);
 }
 
