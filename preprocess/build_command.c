@@ -1,5 +1,6 @@
 #include "preprocess/build.h"
 
+#include "runtime/core/base/file.h"
 #include "runtime/tool/command_line.h"
 
 #include <jansson.h>
@@ -75,6 +76,20 @@ static void print_left_out(const ff_build_result *built)
         fprintf(stderr, PROGRAM ": left out: %s\n", ff_error_text(&built->skipped[i], text, sizeof text));
 }
 
+/* A pack that no one could open must not take the place of one that works. */
+static ff_status check_and_write(ff_pack_content *content, const char *path, size_t *size, ff_error *error)
+{
+    void *data;
+    ff_pack *pack = NULL;
+    ff_status status = ff_pack_image(content, &data, size, error);
+    if (status != FF_OK) return status;
+    status = ff_pack_open_memory(data, *size, &pack, error);
+    ff_pack_close(pack);
+    if (status == FF_OK) status = ff_file_write_atomic(path, data, *size, error);
+    free(data);
+    return status;
+}
+
 static int build_and_write(const ff_operands *operands, const ff_build_settings *settings, const char *path,
                            bool json)
 {
@@ -83,7 +98,7 @@ static int build_and_write(const ff_operands *operands, const ff_build_settings 
     ff_error error;
     ff_status status = build_from(operands, settings, &built, &error);
     if (status == FF_OK || !settings->strict) print_left_out(&built);
-    if (status == FF_OK) status = ff_pack_write(&built.content, path, &size, &error);
+    if (status == FF_OK) status = check_and_write(&built.content, path, &size, &error);
     if (built.unkept > 0)
         fprintf(stderr,
                 PROGRAM ": %s could not be written to; the next build will do this one's work again\n",

@@ -122,11 +122,7 @@ ff_status ff_pack_write(ff_pack_content *content, const char *path, size_t *size
 {
     void *data;
     size_t bytes;
-    ff_pack *pack = NULL;
     ff_status status = ff_pack_image(content, &data, &bytes, error);
-    /* A pack that no one could open must not take the place of one that works. */
-    if (status == FF_OK) status = ff_pack_open_memory(data, bytes, &pack, error);
-    ff_pack_close(pack);
     if (status == FF_OK) status = ff_file_write_atomic(path, data, bytes, error);
     if (status == FF_OK && size) *size = bytes;
     free(data);

@@ -23,7 +23,7 @@ ff_status ff_pack_set_meta(ff_pack_content *content, const char *json, ff_error 
 /* Lay the content out as a whole pack, checksummed, padding zero. *data is 64-byte aligned; free() it. */
 ff_status ff_pack_image(ff_pack_content *content, void **data, size_t *size, ff_error *error);
 
-/* The same, checked as who opens it will, into a file, all or nothing; size (may be NULL) receives its bytes. */
+/* The same, into a file, all or nothing; size (may be NULL) receives its bytes. */
 ff_status ff_pack_write(ff_pack_content *content, const char *path, size_t *size, ff_error *error);
 
 #endif
