@@ -40,6 +40,8 @@ static double ground_speed(const ff_clip *clip)
     ff_vec2 last = {0.0, 0.0};
     double length = 0.0;
     int strides = 0;
+    if (stride > clip->frame_count - 1 - clip->rest_frames)
+        stride = clip->frame_count - 1 - clip->rest_frames;
     if (stride < 1) stride = 1;
     for (int k = clip->rest_frames; k < clip->frame_count; k += stride) {
         ff_clip_pose(clip, k, at, NULL);

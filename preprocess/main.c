@@ -3,6 +3,8 @@
 #include "mocap/generator/generator.h"
 #include "preprocess/build.h"
 #include "preprocess/clean_command.h"
+#include "preprocess/diff_command.h"
+#include "preprocess/extract_command.h"
 #include "preprocess/import_command.h"
 #include "preprocess/plants_command.h"
 #include "preprocess/report.h"
@@ -16,7 +18,9 @@ static const ff_subcommand commands[] = {
     {"build", "make a motion pack from clips", ff_build_command},
     {"config", "print every setting of build", ff_config_command},
     {"import", "bring clips into one form and say what they are", ff_import_command},
+    {"extract", "write an action, example or clip of a pack as BVH or glTF", ff_extract_command},
     {"inspect", "say what is in a motion pack", ff_inspect_command},
+    {"diff", "say what changed from one pack to another", ff_diff_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
     {"steps", "how clips are walked, in numbers", ff_steps_command},
     {"clean", "measure what cleaning up the feet does to clips", ff_clean_command},
