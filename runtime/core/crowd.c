@@ -124,6 +124,29 @@ static size_t memory_needed(const ff_crowd *crowd)
            ff_walls_bytes(crowd->def.max_walls);
 }
 
+/* Back-pedalling, if it is allowed, as far as the pack can walk backwards; the pack's own hull faces forward. */
+static ff_status make_hull(ff_crowd *crowd, ff_error *error)
+{
+    const ff_pack *pack = crowd->pack;
+    if (!crowd->def.mcn.back_pedal) {
+        ff_hull_make(pack->hull, pack->hull_count, &crowd->hull);
+        return FF_OK;
+    }
+    ff_pack_point2 *points = ff_calloc((size_t)pack->hull_count + pack->example_count + 1, sizeof *points);
+    if (!points) return ff_fail(error, FF_ERR_NO_MEMORY, "the velocities of a crowd");
+    uint32_t count = 0;
+    for (; count < pack->hull_count; ++count)
+        points[count] = pack->hull[count];
+    for (uint32_t i = 0; i < pack->example_count; ++i) {
+        const ff_pack_example *example = &pack->examples[i];
+        if (example->v_forward < 0.0f)
+            points[count++] = (ff_pack_point2){example->v_forward, example->v_left};
+    }
+    ff_hull_make(points, count, &crowd->hull);
+    free(points);
+    return FF_OK;
+}
+
 ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd **out, ff_error *error)
 {
     if (!out) return ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the crowd");
@@ -136,8 +159,8 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     crowd->def = *def;
     if (def->navigation == FF_NAVIGATION_CROWD) crowd->def.navigation = FF_NAVIGATION_MCN;
     crowd->gait_size = (ff_gait_size() + 7) & ~(size_t)7;
-    ff_hull_make(pack->hull, pack->hull_count, &crowd->hull);
-    status = ff_blend_space_create(pack, &crowd->space, error);
+    status = make_hull(crowd, error);
+    if (status == FF_OK) status = ff_blend_space_create(pack, &crowd->space, error);
     if (status == FF_OK && !def->tasks) status = ff_tasks_create(def->threads, &crowd->own_tasks, error);
     if (status == FF_OK) status = ff_arena_create(&crowd->arena, memory_needed(crowd), error);
     if (status == FF_OK && !take_memory(crowd))

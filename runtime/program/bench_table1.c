@@ -9,6 +9,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define PROGRAM "footfall-crowd"
 
@@ -48,13 +49,14 @@ static const table_scene scenes[SCENES] = {{"x2",
 static const double steps[STEPS] = {0.1, 1.0 / 30.0};
 
 typedef struct table_options {
-    const char *pack, *out, *json;
+    const char *pack, *out, *json, *scene;
     int64_t seeds, first_seed, threads;
     bool quiet;
 } table_options;
 
 typedef struct table {
     const table_options *options;
+    int first, end;   /* rows that are run */
     ff_trial *trials; /* [row][method][seed] */
     ff_trial_mean mean[ROWS][METHODS];
 } table;
@@ -66,10 +68,11 @@ static const table_scene *scene_of(int row)
 
 static ff_status run_trials(table *t, const ff_trial_set *set, ff_error *error)
 {
-    uint32_t seeds = (uint32_t)t->options->seeds, count = ROWS * METHODS * seeds, at = 0;
+    uint32_t seeds = (uint32_t)t->options->seeds, count = (uint32_t)(t->end - t->first) * METHODS * seeds,
+             at = 0;
     t->trials = ff_calloc(count, sizeof *t->trials);
     if (!t->trials) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %u runs", count);
-    for (int row = 0; row < ROWS; ++row)
+    for (int row = t->first; row < t->end; ++row)
         for (int m = 0; m < METHODS; ++m)
             for (uint32_t s = 0; s < seeds; ++s) {
                 ff_scene_def *def = &t->trials[at++].def;
@@ -81,9 +84,10 @@ static ff_status run_trials(table *t, const ff_trial_set *set, ff_error *error)
                 def->navigation = ff_contender_navigation(&contenders[m]);
             }
     ff_status status = ff_trials_run(set, t->trials, count, error);
-    for (int row = 0; row < ROWS; ++row)
+    for (int row = t->first; row < t->end; ++row)
         for (int m = 0; m < METHODS; ++m)
-            t->mean[row][m] = ff_trials_mean(t->trials + (size_t)(row * METHODS + m) * seeds, seeds);
+            t->mean[row][m] =
+                ff_trials_mean(t->trials + (size_t)((row - t->first) * METHODS + m) * seeds, seeds);
     return status;
 }
 
@@ -121,7 +125,7 @@ static void print_table(const table *t)
     printf("%-3s %5s  %-10s %8s %6s %6s %6s %6s %6s %9s %5s %5s %5s %6s %5s %6s %5s %6s %5s  %s\n", "",
            "step", "method", "C", "A raw", "A walk", "A way", "deep", "pairs", "arrived", "mean", "last",
            "worst", "skate", "joint", "body", "touch", "2-D ms", "us", "paper: C, A, ms");
-    for (int row = 0; row < ROWS; ++row)
+    for (int row = t->first; row < t->end; ++row)
         for (int m = 0; m < METHODS; ++m)
             print_row(row, m, &t->mean[row][m]);
 }
@@ -134,7 +138,7 @@ static ff_status write_csv(const table *t, const char *path, ff_error *error)
         "scene,step,method,C,A_raw,A_whole,A_route,deepest_m,pairs,agents,arrived,mean_s,last_s,last_worst_s,"
         "skate_median_m,skate_p95_m,joint_rad_s,body_deepest_m,body_pairs,update_ms,us_per_agent,paper_C,"
         "paper_A,paper_ms\n");
-    for (int row = 0; row < ROWS; ++row) {
+    for (int row = t->first; row < t->end; ++row) {
         for (int m = 0; m < METHODS; ++m) {
             const ff_trial_mean *mean = &t->mean[row][m];
             const table_scene *scene = scene_of(row);
@@ -170,7 +174,7 @@ static json_t *method_json(const ff_trial_mean *mean)
 static json_t *table_json(const table *t)
 {
     json_t *list = json_array();
-    for (int row = 0; row < ROWS; ++row) {
+    for (int row = t->first; row < t->end; ++row) {
         json_t *methods = json_object();
         for (int m = 0; m < METHODS; ++m)
             json_object_set_new(methods, contenders[m].key, method_json(&t->mean[row][m]));
@@ -186,13 +190,13 @@ static ff_status write_picture(const table *t, const char *path, ff_error *error
     double c[ROWS * METHODS], a[ROWS * METHODS], deep[ROWS * METHODS], last[ROWS * METHODS];
     char names[ROWS][48], subtitle[128];
     const char *groups[ROWS], *methods[METHODS];
-    for (int row = 0; row < ROWS; ++row) {
+    for (int row = t->first; row < t->end; ++row) {
         snprintf(names[row], sizeof names[row], "%s, %s s", scene_of(row)->title,
                  row % STEPS ? "1/30" : "0.1");
-        groups[row] = names[row];
+        groups[row - t->first] = names[row];
         for (int m = 0; m < METHODS; ++m) {
             const ff_trial_mean *mean = &t->mean[row][m];
-            int at = row * METHODS + m;
+            int at = (row - t->first) * METHODS + m;
             methods[m] = contenders[m].label;
             c[at] = 1e4 * mean->collision_rate, a[at] = mean->route;
             deep[at] = 100.0 * mean->deepest, last[at] = mean->last_arrival;
@@ -206,7 +210,8 @@ static ff_status write_picture(const table *t, const char *path, ff_error *error
     snprintf(subtitle, sizeof subtitle,
              "FbCrowd, Table 1: 30, 53 and 100 people, %lld seeds; lower is better everywhere",
              (long long)t->options->seeds);
-    ff_bar_chart chart = {"Three ways to cross", subtitle, groups, methods, ROWS, METHODS, 4, panels};
+    ff_bar_chart chart = {"Three ways to cross", subtitle, groups, methods,
+                          t->end - t->first,     METHODS,  4,      panels};
     return ff_bars_write(path, &chart, error);
 }
 
@@ -227,21 +232,35 @@ static ff_status write_files(const table *t, ff_error *error)
     return status;
 }
 
-static int run_table(const table_options *options)
+/* The rows of the scene of that name; false when there is none. */
+static bool choose_rows(table *t)
 {
+    t->first = 0;
+    t->end = ROWS;
+    if (!t->options->scene) return true;
+    for (int scene = 0; scene < SCENES; ++scene) {
+        t->first = scene * STEPS;
+        t->end = t->first + STEPS;
+        if (strcmp(t->options->scene, scenes[scene].name) == 0) return true;
+    }
+    return false;
+}
+
+static int run_table(table *t)
+{
+    const table_options *options = t->options;
     ff_error error = {0};
     ff_pack *pack = NULL;
     ff_figure figure;
-    table t = {.options = options};
     ff_status status = ff_pack_open(options->pack, &pack, &error);
     if (status == FF_OK) status = ff_figure_from_pack(pack, &figure, &error);
     ff_trial_set set = {pack, &figure, (uint32_t)options->threads, options->quiet};
-    if (status == FF_OK) status = run_trials(&t, &set, &error);
+    if (status == FF_OK) status = run_trials(t, &set, &error);
     if (status == FF_OK) {
-        print_table(&t);
-        status = write_files(&t, &error);
+        print_table(t);
+        status = write_files(t, &error);
     }
-    free(t.trials);
+    free(t->trials);
     ff_pack_close(pack);
     return status == FF_OK ? FF_EXIT_OK : ff_command_fail(PROGRAM, &error);
 }
@@ -251,6 +270,10 @@ int ff_bench_table1_main(int argc, char **argv)
     table_options given = {.seeds = 5, .first_seed = 1, .threads = 1};
     ff_option options[] = {
         {.name = "--pack", .alias = "-p", .value_name = "FILE", .help = "motion pack", .text = &given.pack},
+        {.name = "--scene",
+         .value_name = "NAME",
+         .help = "one scene only: x2, bi or x4",
+         .text = &given.scene},
         {.name = "--seeds",
          .value_name = "N",
          .help = "runs of everything, with different starting places (default 5)",
@@ -286,5 +309,8 @@ int ff_bench_table1_main(int argc, char **argv)
     int status = ff_command_parse(&command, argc, argv, &operands);
     if (status >= 0) return status;
     if (!given.pack) return ff_command_misuse(&command, "--pack FILE is missing");
-    return run_table(&given);
+    table t = {.options = &given};
+    if (!choose_rows(&t))
+        return ff_command_misuse(&command, "--scene is '%.40s'; it can be x2, bi or x4", given.scene);
+    return run_table(&t);
 }

@@ -139,11 +139,32 @@ static void a_pack_with_every_simplex_twice_can_be_blended(void **state)
     ff_walker_space_free(&twice);
 }
 
+static void who_is_asked_for_too_quick_a_turn_goes_on_all_the_same(void **state)
+{
+    const ff_walker_space *full = *state;
+    const ff_rates asked[] = {{0.8, 0.0, 2.5}, {0.0, 0.4, -2.5}, {0.3, -0.3, 9.0}};
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; ++i) {
+        ff_rates got = ff_blend_clamp_turn(full->space, asked[i]);
+        FF_ASSERT_NEAR(got.forward, asked[i].forward, 1e-9);
+        FF_ASSERT_NEAR(got.left, asked[i].left, 1e-9);
+        assert_true(got.turn * asked[i].turn > 0.0 && fabs(got.turn) < fabs(asked[i].turn));
+        ff_rates again = ff_blend_clamp(full->space, got); /* it can be walked */
+        FF_ASSERT_NEAR(again.turn, got.turn, 1e-6);
+    }
+    ff_rates inside = {0.6, 0.1, 0.5}, kept = ff_blend_clamp_turn(full->space, inside);
+    FF_ASSERT_NEAR(kept.forward, inside.forward, 0.0);
+    FF_ASSERT_NEAR(kept.turn, inside.turn, 0.0);
+    /* Faster than anyone walks and a turn besides: some of it is turned. */
+    ff_rates both = ff_blend_clamp_turn(full->space, (ff_rates){9.0, 0.0, 1.0});
+    assert_true(both.forward > 1.0 && both.turn > 0.1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blended_rates_are_exact_in_speed_and_turn),
         cmocka_unit_test(targets_inside_are_kept_and_others_go_to_the_nearest_point),
+        cmocka_unit_test(who_is_asked_for_too_quick_a_turn_goes_on_all_the_same),
         cmocka_unit_test(weights_change_as_smoothly_as_rates_do),
         cmocka_unit_test(a_pack_with_every_simplex_twice_can_be_blended),
         cmocka_unit_test(a_pack_of_one_line_of_walks_is_projected_onto),

@@ -1,5 +1,6 @@
 /* Metrics against closed forms: FbCrowd's equations 16 to 18 with the erratum, and foot skate. */
 #include "runtime/core/base/random.h"
+#include "runtime/export/body_contacts.h"
 #include "runtime/export/metrics.h"
 #include "runtime/export/skate.h"
 #include "tests/check.h"
@@ -177,6 +178,54 @@ static void test_a_foot_that_slides_unlabelled_is_seen_all_the_same(void **state
     ff_skate_free(&skate);
 }
 
+/* A person by the places of head, hands and feet, all other cylinders being far from everything. */
+static ff_cylinders person(double ahead, double aside)
+{
+    ff_vec3 joints[FF_JOINT_COUNT] = {{0}};
+    joints[FF_JOINT_HEAD] = ff_v3(aside, 1.6, ahead);
+    joints[FF_JOINT_WRIST_L] = ff_v3(aside + 0.25, 0.9, ahead);
+    joints[FF_JOINT_WRIST_R] = ff_v3(aside - 0.25, 0.9, ahead);
+    joints[FF_JOINT_BALL_L] = ff_v3(aside + 0.1, 0.03, ahead + 0.3);
+    joints[FF_JOINT_BALL_R] = ff_v3(aside - 0.1, 0.03, ahead - 0.3);
+    return ff_cylinders_of(joints);
+}
+
+static void test_bodies_touch_where_cylinders_of_the_same_height_do(void **state)
+{
+    (void)state;
+    ff_cylinders p = person(0.0, 0.0);
+    ff_cylinders beside = person(0.0, 0.6), behind = person(-0.6, -0.2), near = person(0.0, 0.7),
+                 far = person(0.0, 2.0);
+    FF_ASSERT_NEAR(ff_cylinders_overlap(&p, &beside), 0.06, 1e-12); /* hands 0.1 apart, 0.16 thick */
+    FF_ASSERT_NEAR(ff_cylinders_overlap(&p, &behind), 0.22,
+                   1e-12); /* one steps where the other's rear foot is */
+    FF_ASSERT_NEAR(ff_cylinders_overlap(&p, &near), 0.0, 1e-12);
+    FF_ASSERT_NEAR(ff_cylinders_overlap(&p, &far), 0.0, 0.0);
+    /* A hand over a foot touches nothing: 0.8 m lie between them. */
+    ff_cylinders low = person(0.0, 0.0), high = person(-0.3, 0.35);
+    FF_ASSERT_NEAR(ff_cylinders_overlap(&low, &high), ff_cylinders_overlap(&high, &low), 1e-15);
+}
+
+static void test_touching_bodies_are_counted_once_and_the_absent_never(void **state)
+{
+    (void)state;
+    ff_error error;
+    ff_contacts contacts;
+    FF_ASSERT_OK(ff_contacts_create(3, &contacts, &error), error);
+    for (int k = 0; k < 4; ++k) {
+        contacts.bodies[0] = person(0.0, 0.0);
+        contacts.bodies[1] = person(0.0, 0.6);
+        if (k == 0) contacts.bodies[2] = person(0.0, -5.0);
+        ff_contacts_count(&contacts);
+    }
+    assert_int_equal(contacts.pairs, 1);
+    FF_ASSERT_NEAR(contacts.deepest, 0.06, 1e-12);
+    contacts.bodies[2] = person(0.0, 0.0); /* alone */
+    ff_contacts_count(&contacts);
+    assert_int_equal(contacts.pairs, 1);
+    ff_contacts_free(&contacts);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -191,6 +240,8 @@ int main(void)
         cmocka_unit_test(test_too_short_paths_add_nothing),
         cmocka_unit_test(test_quantiles_are_linear_between_values),
         cmocka_unit_test(test_a_planted_foot_that_slides_is_measured_plant_by_plant),
+        cmocka_unit_test(test_bodies_touch_where_cylinders_of_the_same_height_do),
+        cmocka_unit_test(test_touching_bodies_are_counted_once_and_the_absent_never),
         cmocka_unit_test(test_a_foot_that_slides_unlabelled_is_seen_all_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -136,6 +136,40 @@ static void test_a_custom_scene_is_taken_as_it_stands(void **state)
     ff_scene_free(&scene);
 }
 
+static void test_the_way_of_navigating_is_read_with_all_its_parts(void **state)
+{
+    (void)state;
+    ff_scene scene;
+    ff_crowd_def usual = ff_crowd_def_default();
+    walker_scene("{\"kind\": \"circle\"}", &scene);
+    assert_int_equal(scene.navigation.method, FF_NAVIGATION_MCN);
+    assert_true(scene.navigation.mcn.hull && scene.navigation.mcn.stance && !scene.navigation.mcn.back_pedal);
+    FF_ASSERT_NEAR(scene.navigation.keep_right, usual.keep_right, 0.0);
+    ff_scene_free(&scene);
+    walker_scene(
+        "{\"kind\": \"circle\", \"navigation\": \"sf\", \"mcn\": {\"stance\": false, \"back_pedal\": true, "
+        "\"facing\": \"strafe\", \"keep_right\": -0.2, \"padding\": 0.1, \"prediction\": 0}, \"baseline\": "
+        "{\"keep_right\": 0.3, \"padding\": 0.02, \"model_velocity\": true}}",
+        &scene);
+    const ff_scene_navigation *navigation = &scene.navigation;
+    assert_int_equal(navigation->method, FF_NAVIGATION_SF);
+    assert_true(navigation->mcn.hull && !navigation->mcn.stance && navigation->mcn.back_pedal);
+    assert_int_equal(navigation->mcn.facing, FF_FACING_STRAFE);
+    FF_ASSERT_NEAR(navigation->keep_right, -0.2, 0.0);
+    FF_ASSERT_NEAR(navigation->mcn.padding, 0.1, 0.0);
+    FF_ASSERT_NEAR(navigation->mcn.prediction, 0.0, 0.0);
+    FF_ASSERT_NEAR(navigation->baseline.keep_right, 0.3, 0.0);
+    assert_true(navigation->baseline.model_velocity);
+    ff_scene_free(&scene);
+    walker_scene("{\"kind\": \"custom\", \"agents\": [{\"position\": [0, 0], \"goal\": [1, 1], "
+                 "\"navigation\": \"orca\"}, "
+                 "{\"position\": [3, 0], \"goal\": [1, 1]}]}",
+                 &scene);
+    assert_int_equal(ff_scene_agents(&scene)[0].navigation, FF_NAVIGATION_ORCA);
+    assert_int_equal(ff_scene_agents(&scene)[1].navigation, FF_NAVIGATION_CROWD);
+    ff_scene_free(&scene);
+}
+
 static void test_every_mistake_is_named_with_its_line(void **state)
 {
     (void)state;
@@ -158,6 +192,14 @@ static void test_every_mistake_is_named_with_its_line(void **state)
         {"{\"kind\": \"circle\",\n\"walls\": [[1, 2, 3]]}", "wall", 2},
         {"{\"kind\": \"circle\",\n\"walls\": [[1, 2, 1, 2]]}", "wall", 2},
         {"{\"kind\": \"circle\",\n\"walls\": [[1, 2, 3,\n\"x\"]]}", "wall", 3},
+        {"{\"kind\": \"circle\",\n\"navigation\": \"rvo\"}", "rvo", 2},
+        {"{\"kind\": \"circle\",\n\"navigation\": \"\"}", "navigation", 2},
+        {"{\"kind\": \"circle\",\n\"mcn\": true}", "mcn", 2},
+        {"{\"kind\": \"circle\",\n\"mcn\": {\"hulk\": true}}", "hull", 2},
+        {"{\"kind\": \"circle\",\n\"mcn\": {\"hull\": 1}}", "hull", 2},
+        {"{\"kind\": \"circle\",\n\"mcn\": {\n\"facing\": \"up\"}}", "up", 3},
+        {"{\"kind\": \"circle\",\n\"mcn\": {\"padding\": -1}}", "padding", 2},
+        {"{\"kind\": \"circle\",\n\"baseline\": {\"stance\": true}}", "stance", 2},
         {"{\"kind\": \"custom\"}", "agents", 1},
         {"{\"kind\": \"custom\",\n\"agents\": []}", "agents", 2},
         {"{\"kind\": \"custom\",\n\"agents\": [\n3]}", "position", 3},
@@ -202,6 +244,7 @@ int main(void)
         cmocka_unit_test(test_seeds_change_where_people_start_and_equal_seeds_do_not),
         cmocka_unit_test(test_speeds_spread_about_the_preferred_speed),
         cmocka_unit_test(test_a_custom_scene_is_taken_as_it_stands),
+        cmocka_unit_test(test_the_way_of_navigating_is_read_with_all_its_parts),
         cmocka_unit_test(test_every_mistake_is_named_with_its_line),
         cmocka_unit_test(test_people_may_not_start_inside_each_other),
     };

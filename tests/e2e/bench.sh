@@ -1,0 +1,38 @@
+# The benches of footfall-crowd, as small as they get: tables, files, and what is refused.
+. tests/e2e/lib.sh
+builtin=$FF_BUILD/builtin.ffpack
+
+has() { # FILE WORD...
+    file=$1
+    shift
+    for word in "$@"; do
+        grep -q -- "$word" "$file" || { echo "$file lacks '$word'" && return 1; }
+    done
+}
+
+fig7_writes_table_files_and_pictures() {
+    run 0 "$crowd" bench fig7 --pack "$builtin" --agents 4 --seeds 1 --step 0.1 --mcn --quiet --out "$work/fig7" \
+        --json "$work/fig7.json" && silent err || return 1
+    has "$work/out" "MCN" "4/4" && has "$work/fig7.json" unhindered_s last_worst_s body_deepest_m update_ms &&
+        cmp "$work/fig7.json" "$work/fig7/fig7.json" && [ "$(wc -l <"$work/fig7/fig7.csv")" -eq 2 ] &&
+        [ -s "$work/fig7/fig7-4-mcn.png" ]
+}
+table1_compares_the_methods() {
+    run 0 "$crowd" bench table1 --pack "$builtin" --scene x2 --seeds 1 --quiet --out "$work/table1" \
+        --json "$work/table1.json" && silent err || return 1
+    # Two steps, five methods, and the paper's figures.
+    [ "$(grep -c '^x2' "$work/out")" -eq 10 ] && has "$work/out" 0.0566 0.1440 "ORCA aided" &&
+        [ "$(wc -l <"$work/table1/table1.csv")" -eq 11 ] && [ -s "$work/table1/table1.png" ] &&
+        has "$work/table1.json" '"name": "x2"' '"mcn"' '"orca"' '"sf"' A_route A_raw deepest_m '"arrived": 30' last_s
+}
+mistakes_leave_with_2_and_name_the_way_on() {
+    run 2 "$crowd" bench && run 2 "$crowd" bench fig77 && says err "fig7" &&
+        run 2 "$crowd" bench table1 && says err "--pack" && run 2 "$crowd" bench fig7 && says err "--pack" &&
+        run 2 "$crowd" bench table1 --pack "$builtin" --scene x3 && says err "x3" &&
+        run 1 "$crowd" bench fig7 --pack /dev/null --quiet
+}
+
+test_that "fig7 writes its table, files and pictures" fig7_writes_table_files_and_pictures
+test_that "table1 compares the methods" table1_compares_the_methods
+test_that "mistakes leave with 2 and name the way on" mistakes_leave_with_2_and_name_the_way_on
+finish
