@@ -7,6 +7,7 @@
 
 #define GAIT_STEP 0.5    /* s: one step of walking, over which velocities are averaged */
 #define ROUTE_START 2.0  /* s */
+#define STILL 0.15       /* m/s */
 #define ROUTE_MARGIN 1.5 /* m before the goal (navigation study, section 2) */
 
 /* Steps [0, count) in which the agent was there. */
@@ -31,7 +32,7 @@ static double mean_value(mean m)
 static ff_status take_accelerations(const ff_watch *watch, const ff_recording *recording, ff_measures *out,
                                     ff_error *error)
 {
-    mean raw = {0}, filtered = {0}, route = {0};
+    mean raw = {0}, filtered = {0}, route = {0}, all = {0};
     size_t window = (size_t)ff_max(1.0, floor(GAIT_STEP / recording->step + 0.5));
     ff_vec2 *points = ff_calloc(recording->step_count, sizeof *points);
     if (!points) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for a path");
@@ -43,16 +44,18 @@ static ff_status take_accelerations(const ff_watch *watch, const ff_recording *r
             points[k] = ff_recording_track(recording, k, i)->position;
             if (end == k && ff_length2(ff_sub2(goal, points[k])) > ROUTE_MARGIN) end = k + 1;
         }
-        ff_acceleration_add(points, count, 1, recording->step, &raw.sum, &raw.terms);
-        ff_acceleration_add(points, count, window, recording->step, &filtered.sum, &filtered.terms);
-        if (end > first)
-            ff_acceleration_add(points + first, end - first, window, recording->step, &route.sum,
-                                &route.terms);
+        ff_acceleration_add(points, count, 1, recording->step, 0.0, &raw.sum, &raw.terms);
+        ff_acceleration_add(points, count, window, recording->step, 0.0, &filtered.sum, &filtered.terms);
+        if (end <= first) continue;
+        const ff_vec2 *way = points + first;
+        ff_acceleration_add(way, end - first, window, recording->step, STILL, &route.sum, &route.terms);
+        ff_acceleration_add(way, end - first, window, recording->step, 0.0, &all.sum, &all.terms);
     }
     free(points);
     out->raw = mean_value(raw);
     out->filtered = mean_value(filtered);
     out->route = mean_value(route);
+    out->route_all = mean_value(all);
     return FF_OK;
 }
 

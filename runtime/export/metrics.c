@@ -69,13 +69,14 @@ double ff_collision_rate(const ff_collisions *collisions)
     return collisions->agent_steps ? collisions->sum / (double)collisions->agent_steps : 0.0;
 }
 
-void ff_acceleration_add(const ff_vec2 *points, size_t count, size_t window, double step, double *sum,
-                         uint64_t *terms)
+void ff_acceleration_add(const ff_vec2 *points, size_t count, size_t window, double step, double still,
+                         double *sum, uint64_t *terms)
 {
     double span = (double)window * step;
     for (size_t k = 0; k + window + 1 < count; ++k) {
         ff_vec2 now = ff_sub2(points[k + window], points[k]);
         ff_vec2 next = ff_sub2(points[k + window + 1], points[k + 1]);
+        if (ff_max(ff_dot2(now, now), ff_dot2(next, next)) < still * still * span * span) continue;
         *sum += ff_length2(ff_sub2(next, now)) / (span * step);
         ++*terms;
     }

@@ -32,9 +32,10 @@ void ff_collisions_add(ff_collisions *collisions, const ff_track *before, const 
 double ff_collision_rate(const ff_collisions *collisions); /* C of equation 17, per agent and step */
 
 /* Mean |dv| / dt (equation 18) over points [0, count) of one path, velocities being taken over `window` steps: 1 =
- * raw, one step of walking (0.5 s) = without the sway of the gait. Adds to *sum and *terms. */
-void ff_acceleration_add(const ff_vec2 *points, size_t count, size_t window, double step, double *sum,
-                         uint64_t *terms);
+ * raw, one step of walking (0.5 s) = without the sway of the gait. Where both velocities are below still (m/s), nobody goes anywhere, and
+ * nothing is counted. Adds to *sum and *terms. */
+void ff_acceleration_add(const ff_vec2 *points, size_t count, size_t window, double step, double still,
+                         double *sum, uint64_t *terms);
 
 /* Quantile q in [0, 1] of values, linear between neighbours; sorts values. 0 when there are none. */
 double ff_quantile(double *values, size_t count, double q);

@@ -138,17 +138,23 @@ static ff_status run_circles(circles *all, ff_error *error)
     return FF_OK;
 }
 
+static const char *const legend[] = {
+    "alone    s that one walker takes to stand at the goal",
+    "mean ... s to the goal: mean, last, last of the worst seed, of those who arrived; the latter two "
+    "against alone",
+    "C        collision rate, eq 17",
+    "deep     deepest overlap of two discs in cm, of all seeds",
+    "body     the same of the bodies' five cylinders; pairs that ever touched",
+    "A        acceleration over one step of walking, m/s2",
+    "2-D ms   navigation of the whole crowd per update; us: everything, per agent and update (Detour has no "
+    "bodies)"};
+
 static void print_circles(const circles *all)
 {
-    printf("Everyone to the other side of a circle; seeds from %lld on. Alone: s that one walker takes to "
-           "stand at the goal. Arrivals of all "
-           "seeds; s to the goal: mean, last, worst seed's last; last and worst against alone; C: collision "
-           "rate (eq 17); deepest overlap of "
-           "discs of any seed, and of the bodies' five cylinders, in cm, and pairs of bodies that "
-           "touched;\nA: acceleration over one step of "
-           "walking in m/s2; ms per 2-D update of the whole crowd; us per agent and step (Detour: without "
-           "bodies).\n",
+    printf("seeds from %lld on; everyone to the other side of a circle, to stand there\n",
            (long long)all->options->first_seed);
+    for (size_t i = 0; i < sizeof legend / sizeof *legend; ++i)
+        printf("  %s\n", legend[i]);
     printf("%6s %5s %6s  %-7s %10s %6s %6s %6s %5s %5s %9s %6s %6s %6s %6s %8s %6s\n", "agents", "step",
            "alone", "method", "arrived", "mean", "last", "worst", "ratio", "worst", "C", "deep", "body",
            "touch", "A", "2-D ms", "us");

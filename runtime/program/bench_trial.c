@@ -101,6 +101,7 @@ ff_trial_mean ff_trials_mean(const ff_trial *trials, uint32_t count)
         out.raw += share * m->raw;
         out.filtered += share * m->filtered;
         out.route += share * m->route;
+        out.route_all += share * m->route_all;
         out.mean_arrival += share * m->mean_arrival;
         out.last_arrival += share * m->last_arrival;
         out.last_worst = ff_max(out.last_worst, m->last_arrival);

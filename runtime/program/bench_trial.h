@@ -41,14 +41,14 @@ ff_status ff_trial_record(const ff_trial_set *set, const ff_scene_def *def, ff_s
 
 /* Over the seeds of one scene and method. */
 typedef struct ff_trial_mean {
-    uint32_t agents, arrived;                      /* of all seeds together */
-    double collision_rate, raw, filtered, route;   /* means */
-    double mean_arrival, last_arrival, last_worst; /* s: means, and the worst seed's last */
-    double deepest, body_deepest;                  /* m, of all seeds */
-    double pairs, body_pairs;                      /* means */
-    double slide_median, slide_p95;                /* m, means */
-    double joint_speed;                            /* rad/s, of all seeds */
-    double navigation_ms, total_us;                /* means */
+    uint32_t agents, arrived;                               /* of all seeds together */
+    double collision_rate, raw, filtered, route, route_all; /* means */
+    double mean_arrival, last_arrival, last_worst;          /* s: means, and the worst seed's last */
+    double deepest, body_deepest;                           /* m, of all seeds */
+    double pairs, body_pairs;                               /* means */
+    double slide_median, slide_p95;                         /* m, means */
+    double joint_speed;                                     /* rad/s, of all seeds */
+    double navigation_ms, total_us;                         /* means */
 } ff_trial_mean;
 
 ff_trial_mean ff_trials_mean(const ff_trial *trials, uint32_t count);

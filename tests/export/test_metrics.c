@@ -90,7 +90,7 @@ static double mean_acceleration(const ff_vec2 *points, size_t window, double ste
 {
     double sum = 0.0;
     uint64_t terms = 0;
-    ff_acceleration_add(points, POINTS, window, step, &sum, &terms);
+    ff_acceleration_add(points, POINTS, window, step, 0.0, &sum, &terms);
     assert_int_equal(terms, POINTS - window - 1);
     return sum / (double)terms;
 }
@@ -118,14 +118,33 @@ static void test_sway_at_the_period_of_the_window_is_filtered_out(void **state)
     FF_ASSERT_NEAR(mean_acceleration(points, 1, step), 2.0 / FF_PI * 0.02 * sway * sway, 0.15);
 }
 
+static void test_those_who_stand_in_a_jam_can_be_left_out(void **state)
+{
+    (void)state;
+    ff_vec2 points[40];
+    /* 1 m/s^2 from a stand for 1 s at 0.1 s, after 2 s of standing. */
+    for (int k = 0; k < 40; ++k) {
+        double t = ff_max(0.0, 0.1 * (k - 20));
+        points[k] = ff_v2(0.5 * t * t, 0.0);
+    }
+    double sum = 0.0, moving = 0.0;
+    uint64_t terms = 0, moving_terms = 0;
+    ff_acceleration_add(points, 40, 1, 0.1, 0.0, &sum, &terms);
+    ff_acceleration_add(points, 40, 1, 0.1, 0.15, &moving, &moving_terms);
+    assert_int_equal(terms, 38);
+    assert_int_equal(moving_terms, 18); /* from the step on that ends at 0.15 m/s */
+    FF_ASSERT_NEAR(moving / (double)moving_terms, 1.0, 1e-9);
+    FF_ASSERT_BELOW(sum / (double)terms, 0.51);
+}
+
 static void test_too_short_paths_add_nothing(void **state)
 {
     (void)state;
     double sum = 0.0;
     uint64_t terms = 0;
     ff_vec2 points[2] = {{0, 0}, {1, 0}};
-    ff_acceleration_add(points, 2, 1, 0.1, &sum, &terms);
-    ff_acceleration_add(points, 0, 15, 0.1, &sum, &terms);
+    ff_acceleration_add(points, 2, 1, 0.1, 0.0, &sum, &terms);
+    ff_acceleration_add(points, 0, 15, 0.1, 0.0, &sum, &terms);
     assert_int_equal(terms, 0);
 }
 
@@ -237,6 +256,7 @@ int main(void)
         cmocka_unit_test(test_a_graze_below_a_centimetre_is_measured_but_is_no_overlapping_pair),
         cmocka_unit_test(test_constant_acceleration_is_found_raw_and_filtered),
         cmocka_unit_test(test_sway_at_the_period_of_the_window_is_filtered_out),
+        cmocka_unit_test(test_those_who_stand_in_a_jam_can_be_left_out),
         cmocka_unit_test(test_too_short_paths_add_nothing),
         cmocka_unit_test(test_quantiles_are_linear_between_values),
         cmocka_unit_test(test_a_planted_foot_that_slides_is_measured_plant_by_plant),
