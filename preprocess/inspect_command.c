@@ -1,4 +1,5 @@
 #include "preprocess/build.h"
+#include "preprocess/coverage.h"
 #include "preprocess/inspect_examples.h"
 
 #include "runtime/core/base/maths.h"
@@ -80,6 +81,28 @@ static void print_actions(const ff_pack *pack)
             printf("  %-12s %11u %9u %9.2f %9.2f\n", mode_names[mode], plain, mirrored, seconds / all,
                    metres / all);
     }
+}
+
+static void print_coverage(const ff_pack *pack)
+{
+    if (pack->action_count == 0) return;
+    ff_branching b = ff_coverage_branching(pack);
+    printf("  %.0f actions may follow one (median; %u to %u); %u joints for want of better ones\n", b.median,
+           b.least, b.most, b.forced);
+    for (int k = 0; k < ff_coverage_kinds(); ++k)
+        if (ff_coverage_count(pack, k) == 0) printf("  no %s\n", ff_coverage_words(k));
+}
+
+static json_t *coverage_json(const ff_pack *pack)
+{
+    json_t *missing = json_array();
+    ff_branching b = ff_coverage_branching(pack);
+    for (int k = 0; k < ff_coverage_kinds(); ++k)
+        if (ff_coverage_count(pack, k) == 0)
+            json_array_append_new(missing, json_string(ff_coverage_words(k)));
+    return json_pack("{s:f, s:i, s:i, s:i, s:o}", "successors_median", b.median, "successors_least",
+                     (int)b.least, "successors_most", (int)b.most, "joints_forced", (int)b.forced, "missing",
+                     missing);
 }
 
 static void print_examples(const ff_pack *pack)
@@ -180,6 +203,7 @@ static void print_all(const ff_pack *pack, const char *path)
            pack->action_count, pack->example_count);
     print_clips(pack);
     print_actions(pack);
+    print_coverage(pack);
     print_examples(pack);
     print_hull(pack);
     print_licences(pack);
@@ -249,11 +273,11 @@ static void print_json(const ff_pack *pack, const char *path)
 {
     json_error_t place;
     json_t *meta = json_loadb(pack->meta, (size_t)pack->meta_size, 0, &place);
-    json_t *root = json_pack("{s:s, s:I, s:i, s:i, s:o, s:o, s:o, s:o, s:o}", "pack", path, "bytes",
-                             (json_int_t)pack->size, "joints", (int)pack->joint_count, "simplices",
-                             (int)pack->simplex_count, "clips", clips_json(pack), "actions",
-                             actions_json(pack), "examples", examples_json(pack), "hull", hull_json(pack),
-                             "provenance", meta ? meta : json_null());
+    json_t *root = json_pack(
+        "{s:s, s:I, s:i, s:i, s:o, s:o, s:o, s:o, s:o, s:o}", "pack", path, "bytes", (json_int_t)pack->size,
+        "joints", (int)pack->joint_count, "simplices", (int)pack->simplex_count, "clips", clips_json(pack),
+        "actions", actions_json(pack), "coverage", coverage_json(pack), "examples", examples_json(pack),
+        "hull", hull_json(pack), "provenance", meta ? meta : json_null());
     if (root) json_dumpf(root, stdout, JSON_INDENT(1));
     printf("\n");
     json_decref(root);

@@ -159,6 +159,7 @@ ff_status ff_report_write(const ff_pack *pack, const char *pack_name, const char
         write_head(&page, pack_name);
         write_summary(&page, pack);
         write_skipped(&page, meta);
+        ff_report_coverage(&page, pack);
         ff_report_hull(&page, pack);
         status = ff_report_examples(&page, pack, meta, error);
         if (status == FF_OK) status = ff_report_maps(&page, pack, error);

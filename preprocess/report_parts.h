@@ -27,6 +27,9 @@ void ff_report_steps(ff_text *page, const ff_pack *pack, const ff_pack_clip *cli
 /* What the clean-up of a clip's feet did. clean: the clip's object in META, or NULL. */
 void ff_report_clean(ff_text *page, const json_t *clean);
 
+/* Where the actions land, how far they turn, what is missing, what may follow what. */
+void ff_report_coverage(ff_text *page, const ff_pack *pack);
+
 /* Examples and their hull in the plane of velocities (FbCrowd, figure 3). */
 void ff_report_hull(ff_text *page, const ff_pack *pack);
 

@@ -13,7 +13,8 @@ static const double LANDING = 0.12, TURN = 12.0 * FF_DEG, DURATION = 0.08,
 static const double PARTNER = 0.12;   /* m, pose distance up to which actions are partners */
 static const int WALK_PARTNERS = 20, RUN_PARTNERS = 2;
 static const double CLEAN = 0.65, SLIDE = 0.08; /* confidence of the plants; m that they slide */
-static const int RUN_SHARE = 8;                 /* one in so many may be a run: they go with nothing else */
+static const int RUN_SHARE = 12;                /* one in so many may be a run: they go with nothing else */
+enum { ROOM_FOR_PLATFORM = 40 };                /* actions: smaller sets have none of the jumps and ducks */
 static const double COVER_SHARE =
     0.6; /* of what is left after the needed ones goes to covering, the rest to partners */
 
@@ -22,7 +23,7 @@ typedef struct candidate {
     ff_action *action, mirrored;
     int partners; /* that may follow it or its mirror image */
     bool fit, chosen;
-    bool ordinary; /* a walk or a step into or out of one: what partners are counted among */
+    bool ordinary; /* a walking step */
     double away;   /* from the nearest chosen one */
 } candidate;
 
@@ -140,7 +141,10 @@ static bool may_cover(const selection *s, int index)
     int runs = 0;
     for (int i = 0; i < s->count; ++i)
         runs += s->items[i].chosen && s->items[i].action->record.mode == FF_MODE_RUN;
-    return c->action->record.mode != FF_MODE_RUN || (runs + 1) * RUN_SHARE <= s->wanted;
+    uint32_t mode = c->action->record.mode;
+    bool platform = mode == FF_MODE_JUMP || mode == FF_MODE_CLIMB || mode == FF_MODE_CROUCH;
+    if (platform && s->wanted < ROOM_FOR_PLATFORM) return false;
+    return mode != FF_MODE_RUN || (runs + 1) * RUN_SHARE <= s->wanted;
 }
 
 static void choose_covering(selection *s, int up_to)
@@ -218,8 +222,7 @@ static ff_status begin(selection *s, ff_build_clip *clips, int count, int wanted
         for (int k = 0; k < clips[i].actions.count; ++k, ++n) {
             uint32_t mode = s->items[n].action->record.mode;
             s->items[n].fit = is_fit(&clips[i], &s->items[n]);
-            s->items[n].ordinary = mode == FF_MODE_WALK_SHORT || mode == FF_MODE_WALK_LONG ||
-                                   mode == FF_MODE_START || mode == FF_MODE_STOP || mode == FF_MODE_TURN;
+            s->items[n].ordinary = mode == FF_MODE_WALK_SHORT || mode == FF_MODE_WALK_LONG;
         }
     return FF_OK;
 }

@@ -8,8 +8,9 @@ static const double LONGEST = 6.0;      /* s: samples of colliders reach this fa
 static const double LONGEST_DUCK = 3.0; /* s below: who stays down longer walks crouched */
 static const double TURN_TRAVEL =
     0.4; /* m, of the root over a whole turn: algorithms A.6 has 0.25 for one step */
-static const double TURN_ANGLE = 20.0 * FF_DEG; /* algorithms A.6 */
-static const double CROUCHED = 0.8;             /* hips, share of their height at rest */
+static const double TURN_ANGLE =
+    12.0 * FF_DEG;                  /* over the whole; algorithms A.6 has 20 degrees for one step */
+static const double CROUCHED = 0.8; /* hips, share of their height at rest */
 static const double UPRIGHT = 0.9;
 static const double JUMP_FLIGHT = 0.3; /* s: twice the flight of a fast run */
 static const double TOGETHER = 0.06;   /* s: both feet leave or land as one */

@@ -1,0 +1,283 @@
+/* What a pack's actions are good for: mirror images, successors, small sets, and what is derived. */
+#include "preprocess/build.h"
+#include "preprocess/coverage.h"
+#include "preprocess/successors.h"
+#include "runtime/core/pack.h"
+#include "tests/preprocess/motion_make.h"
+
+#include <stdio.h>
+
+/* A pack of the built-in clips, in memory. */
+typedef struct built {
+    void *image;
+    ff_pack *pack;
+} built;
+
+static built build_in(int64_t actions, bool derive)
+{
+    ff_build_settings settings = ff_build_settings_default();
+    ff_build_result result;
+    ff_error error;
+    built b;
+    size_t size;
+    settings.quiet = true;
+    settings.pack.motion.clean = false; /* takes long, and changes nothing here */
+    settings.pack.actions.count = actions;
+    settings.pack.actions.derive = derive;
+    FF_ASSERT_OK(ff_build(NULL, &settings, &result, &error), error);
+    FF_ASSERT_OK(ff_pack_image(&result.content, &b.image, &size, &error), error);
+    FF_ASSERT_OK(ff_pack_open_memory(b.image, size, &b.pack, &error), error);
+    ff_build_result_free(&result);
+    return b;
+}
+
+static void built_free(built *b)
+{
+    ff_pack_close(b->pack);
+    free(b->image);
+}
+
+/* One clip's actions on a rig. */
+typedef struct cut_clip {
+    made_motion made;
+    ff_actions actions;
+} cut_clip;
+
+static cut_clip cut(const ff_rig *rig, ff_clip clip)
+{
+    cut_clip c;
+    ff_error error;
+    c.made = make_motion(rig, clip);
+    FF_ASSERT_OK(ff_actions_cut(rig, &c.made.motion, &c.made.plants, -1, &c.actions, &error), error);
+    return c;
+}
+
+static void cut_free(cut_clip *c)
+{
+    ff_actions_free(&c->actions);
+    made_motion_free(&c->made);
+}
+
+/* Numbers of a record that differ by more than tolerance: their count. */
+static int differences(const ff_pack_action *x, const ff_pack_action *y, double tolerance)
+{
+    size_t first = offsetof(ff_pack_action, t_0) / sizeof(float),
+           last = offsetof(ff_pack_action, first_collider) / sizeof(float);
+    const float *p = (const float *)(const void *)x, *q = (const float *)(const void *)y;
+    int count = 0;
+    for (size_t i = first; i < last; ++i)
+        count += fabs(ff_wrap((double)p[i] - (double)q[i])) > tolerance &&
+                 fabs((double)p[i] - (double)q[i]) > tolerance;
+    return count;
+}
+
+static void mirroring_twice_changes_nothing(void **state)
+{
+    (void)state;
+    ff_clip clip = generated_clip("curve-left");
+    ff_rig rig = rig_of(&clip);
+    cut_clip c = cut(&rig, clip);
+    assert_true(c.actions.count > 5);
+    for (int i = 0; i < c.actions.count; ++i) {
+        ff_action once, twice;
+        ff_action_mirror(&c.actions.items[i], &once);
+        ff_action_mirror(&once, &twice);
+        assert_int_equal(differences(&c.actions.items[i].record, &twice.record, 1e-6), 0);
+        assert_memory_equal(&c.actions.items[i].start, &twice.start, sizeof twice.start);
+        assert_memory_equal(&c.actions.items[i].end, &twice.end, sizeof twice.end);
+        assert_int_equal(once.record.support, 1 - c.actions.items[i].record.support);
+        for (uint32_t k = 0; k < twice.record.event_count; ++k)
+            assert_int_equal(twice.events[k].foot, c.actions.items[i].events[k].foot);
+    }
+    /* The motion too, to 1e-6. */
+    ff_motion once, twice;
+    ff_error error;
+    FF_ASSERT_OK(ff_motion_mirror(&c.made.motion, &once, &error), error);
+    FF_ASSERT_OK(ff_motion_mirror(&once, &twice, &error), error);
+    for (int k = 0; k < twice.frame_count; ++k) {
+        FF_ASSERT_BELOW(ff_length3(ff_sub3(twice.root[k], c.made.motion.root[k])), 1e-6);
+        for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
+            int i = k * FF_ROLE_JOINT_COUNT + r;
+            FF_ASSERT_BELOW(1.0 - fabs(ff_quat_dot(twice.rotations[i], c.made.motion.rotations[i])), 1e-6);
+        }
+    }
+    ff_motion_free(&once);
+    ff_motion_free(&twice);
+    cut_free(&c);
+}
+
+/* The generator makes each of these with either foot: the mirror image of one is the other. */
+static void mirror_images_are_what_the_other_foot_does(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {{"start-left", "start-right"},
+                                           {"stop-left", "stop-right"},
+                                           {"curve-left", "curve-right"},
+                                           {"turn-left-90", "turn-right-90"},
+                                           {"strafe-left", "strafe-right"}};
+    for (size_t p = 0; p < sizeof pairs / sizeof pairs[0]; ++p) {
+        ff_clip left = generated_clip(pairs[p][0]), right = generated_clip(pairs[p][1]);
+        ff_rig rig = rig_of(&left);
+        cut_clip c = cut(&rig, left), d = cut(&rig, right);
+        assert_int_equal(c.actions.count, d.actions.count);
+        for (int i = 0; i < c.actions.count; ++i) {
+            ff_action mirrored;
+            const ff_pack_action *other = &d.actions.items[i].record;
+            ff_action_mirror(&c.actions.items[i], &mirrored);
+            /* Two actions of one time and foot; standing has no foot of its own. */
+            if (mirrored.record.mode == FF_MODE_IDLE) continue;
+            assert_int_equal(mirrored.record.support, other->support);
+            assert_int_equal(mirrored.record.mode, other->mode);
+            assert_int_equal(mirrored.record.event_count, other->event_count);
+            if (differences(&mirrored.record, other, 2e-3))
+                print_error("%s %d: land %.4f %.4f, %s %.4f %.4f; theta %.4f %.4f\n", pairs[p][0], i,
+                            (double)mirrored.record.land[0], (double)mirrored.record.land[1], pairs[p][1],
+                            (double)other->land[0], (double)other->land[1], (double)mirrored.record.theta,
+                            (double)other->theta);
+            assert_int_equal(differences(&mirrored.record, other, 2e-3), 0);
+        }
+        cut_free(&c);
+        cut_free(&d);
+    }
+}
+
+static bool leads_to_standing(const ff_pack *pack, const ff_pack_action *a)
+{
+    for (uint32_t i = 0; i < a->successor_count; ++i)
+        if (pack->actions[pack->successors[a->first_successor + i].action].flags & FF_ACTION_TO_STANDING)
+            return true;
+    return false;
+}
+
+static void every_action_goes_on_and_every_walk_comes_to_stand(void **state)
+{
+    (void)state;
+    const int64_t sizes[] = {0, 28};
+    for (int s = 0; s < 2; ++s) {
+        built b = build_in(sizes[s], true);
+        const ff_pack *pack = b.pack;
+        if (sizes[s]) {
+            uint32_t own = 0;
+            for (uint32_t i = 0; i < pack->action_count; ++i)
+                own += !(pack->actions[i].flags & FF_ACTION_MIRRORED);
+            assert_int_equal(own, sizes[s]);
+        }
+        for (uint32_t i = 0; i < pack->action_count; ++i) {
+            const ff_pack_action *a = &pack->actions[i];
+            assert_true(a->successor_count >= 1);
+            if (a->mode != FF_MODE_WALK_SHORT && a->mode != FF_MODE_WALK_LONG) continue;
+            bool stands = leads_to_standing(pack, a);
+            for (uint32_t k = 0; k < a->successor_count && !stands; ++k)
+                stands =
+                    leads_to_standing(pack, &pack->actions[pack->successors[a->first_successor + k].action]);
+            assert_true(stands);
+        }
+        built_free(&b);
+    }
+}
+
+/* In one clip the step that really followed follows best: its joint is where the poses are the same. */
+static void the_step_that_followed_is_the_nearest(void **state)
+{
+    (void)state;
+    ff_clip clip = generated_clip("walk-normal");
+    ff_rig rig = rig_of(&clip);
+    cut_clip c = cut(&rig, clip);
+    int pairs = 0;
+    for (int i = 0; i + 1 < c.actions.count; ++i) {
+        const ff_action *a = &c.actions.items[i], *b = &c.actions.items[i + 1];
+        if (b->first_frame != a->last_frame) continue;
+        const ff_action_joins p = {a->start, a->end}, q = {b->start, b->end};
+        assert_true(ff_may_follow(&a->record, &b->record));
+        FF_ASSERT_BELOW(ff_join_distance(&a->record, &p, &b->record, &q, 1.0), 1e-4);
+        ++pairs;
+    }
+    assert_true(pairs >= 5);
+    assert_false(
+        ff_may_follow(&c.actions.items[0].record, &c.actions.items[0].record)); /* the same foot again */
+    cut_free(&c);
+}
+
+/* Distances are root mean squares over weighted joints: shifting a pose by d gives d. */
+static void the_distance_is_in_metres(void **state)
+{
+    (void)state;
+    ff_clip clip = generated_clip("walk-normal");
+    ff_rig rig = rig_of(&clip);
+    cut_clip c = cut(&rig, clip);
+    ff_action_joins p = {c.actions.items[0].start, c.actions.items[0].end}, q = {p.end, p.end};
+    for (int k = 0; k < FF_JOIN_FRAMES; ++k)
+        for (int j = 0; j < FF_ROLE_JOINT_COUNT; ++j)
+            q.start.at[k][j][1] += 0.07f;
+    const ff_pack_action *a = &c.actions.items[0].record, *b = &c.actions.items[1].record;
+    FF_ASSERT_NEAR(ff_join_distance(a, &p, b, &q, 1.0), 0.07, 1e-6);
+    FF_ASSERT_NEAR(ff_join_limit(28), 0.15, 1e-12);
+    FF_ASSERT_NEAR(ff_join_limit(300), 0.10, 1e-12);
+    cut_free(&c);
+}
+
+static void derived_actions_fill_what_is_missing_and_stand_where_they_should(void **state)
+{
+    (void)state;
+    built without = build_in(0, false), with = build_in(0, true);
+    int kinds_without = 0, kinds_with = 0;
+    for (int k = 0; k < ff_coverage_kinds(); ++k) {
+        kinds_without += ff_coverage_count(without.pack, k) > 0;
+        kinds_with += ff_coverage_count(with.pack, k) > 0;
+        if (ff_coverage_count(without.pack, k) > 0) assert_true(ff_coverage_count(with.pack, k) > 0);
+    }
+    assert_true(kinds_with > kinds_without);
+    int derived = 0;
+    for (uint32_t i = 0; i < with.pack->action_count; ++i) {
+        const ff_pack_action *a = &with.pack->actions[i];
+        if (!(a->flags & FF_ACTION_DERIVED)) continue;
+        ++derived;
+        assert_true(with.pack->clips[a->clip].flags & FF_CLIP_DERIVED);
+        assert_true(a->flags & (FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING));
+        assert_true(a->successor_count >= 2);
+        assert_true(a->coarse_radius > 0.3f && a->coarse_radius < 1.0f);
+    }
+    assert_true(derived >= 8);
+    built_free(&without);
+    built_free(&with);
+}
+
+static void events_are_what_the_plants_say(void **state)
+{
+    (void)state;
+    ff_clip clip = generated_clip("walk-normal");
+    ff_rig rig = rig_of(&clip);
+    cut_clip c = cut(&rig, clip);
+    for (int i = 0; i < c.actions.count; ++i) {
+        const ff_action *a = &c.actions.items[i];
+        int kinds[2][FF_EVENT_KIND_COUNT] = {{0}};
+        for (uint32_t k = 0; k < a->record.event_count; ++k) {
+            const ff_pack_event *e = &a->events[k];
+            const ff_plant *p = &c.made.plants.items[e->plant];
+            const int frames[] = {p->start, p->flat_start, p->flat_end + 1, p->end + 1};
+            assert_int_equal(e->foot, p->foot);
+            FF_ASSERT_NEAR(e->time, frames[e->kind] * c.made.motion.frame_time, 1e-5);
+            ++kinds[e->foot][e->kind];
+        }
+        if (a->record.mode != FF_MODE_WALK_SHORT && a->record.mode != FF_MODE_WALK_LONG) continue;
+        /* A walking step: the old support foot's heel and the swing foot's toes leave, the swing foot lands. */
+        assert_int_equal(kinds[a->record.swing][FF_EVENT_CONTACT], 1);
+        assert_int_equal(kinds[a->record.swing][FF_EVENT_TOE_OFF], 1);
+        assert_int_equal(kinds[a->record.support][FF_EVENT_HEEL_OFF], 1);
+    }
+    cut_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mirroring_twice_changes_nothing),
+        cmocka_unit_test(mirror_images_are_what_the_other_foot_does),
+        cmocka_unit_test(every_action_goes_on_and_every_walk_comes_to_stand),
+        cmocka_unit_test(the_step_that_followed_is_the_nearest),
+        cmocka_unit_test(the_distance_is_in_metres),
+        cmocka_unit_test(derived_actions_fill_what_is_missing_and_stand_where_they_should),
+        cmocka_unit_test(events_are_what_the_plants_say),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
