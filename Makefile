@@ -46,7 +46,7 @@ ifneq ($(wildcard /usr/include/recastnavigation/DetourCrowd.h),)
 CXXFLAGS_ALL += -DFF_HAVE_DETOUR
 detour := -lDetourCrowd -lDetour
 endif
-libs   := -ljansson -ltinygltf $(opencv) $(detour) -lceres -lglog -lxxhash -lm
+libs   := -ljansson -ltinygltf $(opencv) $(detour) -lceres -lglog -lOpenMeshTools -lOpenMeshCore -lxxhash -lm
 
 # The version stands in the public header alone. The first number is the shared library's: it changes when programs
 # built before would no longer run.

@@ -138,13 +138,15 @@ static void drop_repeated(ff_catalogue *catalogue)
 ff_status ff_catalogue_read(const char *const *inputs, int input_count, ff_catalogue *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
-    ff_catalogue_builder builder = {{0}, NULL};
+    ff_catalogue_builder builder = {.memory = NULL};
     ff_status status = FF_OK;
     for (int i = 0; i < input_count && status == FF_OK; ++i)
         status = add_input(&builder, inputs[i], error);
     out->entries = builder.entries.data;
     out->count = (int)builder.entries.count;
     out->memory = builder.memory;
+    out->skin = builder.skin;
+    out->skin_options = builder.skin_options;
     if (status == FF_OK && out->count == 0)
         status =
             ff_fail(error, FF_ERR_NO_DATA, "no clip to read: no .amc, .bvh, .gltf or .glb in what was given");

@@ -17,6 +17,8 @@ typedef struct ff_catalogue_entry {
 typedef struct ff_catalogue {
     ff_catalogue_entry *entries; /* sorted by path, so that packs do not depend on the order of folders */
     int count;
+    char *skin; /* glTF file of the character to draw; NULL = none */
+    ff_load_options skin_options;
     void *memory; /* what the strings live in */
 } ff_catalogue;
 

@@ -9,6 +9,8 @@
 typedef struct ff_catalogue_builder {
     ff_array entries; /* ff_catalogue_entry */
     void *memory;
+    char *skin; /* of the last catalogue that names one */
+    ff_load_options skin_options;
 } ff_catalogue_builder;
 
 /* size zeroed bytes that live as long as the catalogue; NULL when memory is short. */

@@ -239,11 +239,21 @@ static ff_status set_folder(reader *r, const char *catalogue_path, const char *g
     return r->folder ? FF_OK : fail_memory(r);
 }
 
+/* The character that is drawn: a glTF file, read with the catalogue's own unit and roles. */
+static ff_status read_skin(reader *r, const json_t *root, const ff_catalogue_entry *defaults)
+{
+    const char *name = NULL;
+    ff_status status = ff_json_string(&r->json, root, "skin", &name, r->error);
+    if (status != FF_OK || !name) return status;
+    r->builder->skin_options = defaults->options;
+    return find_file(r, root, "skin", name, &r->builder->skin);
+}
+
 static ff_status read_root(reader *r, const char *path, const char *folder)
 {
-    static const char *const keys[] = {"folder", "note",    "clips",    "unit",     "fps",
-                                       "up",     "strict",  "mirror",   "tags",     "mode",
-                                       "roles",  "licence", "citation", "in_place", NULL};
+    static const char *const keys[] = {"folder",   "note",     "clips", "unit", "fps",   "up",
+                                       "strict",   "mirror",   "tags",  "mode", "roles", "licence",
+                                       "citation", "in_place", "skin",  NULL};
     json_t *root = r->json.root, *clips = json_object_get(root, "clips");
     ff_status status = ff_json_only_keys(&r->json, root, keys, r->error);
     const char *note = NULL;
@@ -254,6 +264,7 @@ static ff_status read_root(reader *r, const char *path, const char *folder)
         return ff_json_fail(&r->json, clips ? clips : root, r->error, "\"clips\": expected a list of clips");
     ff_catalogue_entry defaults = ff_catalogue_default();
     status = read_common(r, root, &defaults);
+    if (status == FF_OK) status = read_skin(r, root, &defaults);
     for (size_t i = 0; i < json_array_size(clips) && status == FF_OK; ++i)
         status = read_clip(r, json_array_get(clips, i), &defaults);
     return status;

@@ -79,12 +79,12 @@ static ff_status plan_frames(const ff_gltf_motion *motion, int joints, double ra
     return status;
 }
 
-static void name_joint(const ff_gltf_node *node, int index, ff_joint *joint)
+void ff_gltf_joint_name(const ff_gltf *gltf, int node, char name[64])
 {
-    if (node->name[0]) {
-        memcpy(joint->name, node->name, sizeof joint->name);
+    if (gltf->nodes[node].name[0]) {
+        memcpy(name, gltf->nodes[node].name, sizeof gltf->nodes[node].name);
     } else {
-        snprintf(joint->name, sizeof joint->name, "node_%d", index);
+        snprintf(name, 64, "node_%d", node);
     }
 }
 
@@ -96,7 +96,7 @@ static ff_status make_joints(const ff_gltf *gltf, const ff_gltf_skeleton *s, ff_
         ff_joint *joint = &clip->joints[j];
         joint->end_site = s->node[j] < 0;
         int named = joint->end_site ? s->node[s->parent[j]] : s->node[j];
-        name_joint(&gltf->nodes[named], named, joint);
+        ff_gltf_joint_name(gltf, named, joint->name);
         if (joint->end_site) {
             joint->name[59] = '\0';
             memcpy(joint->name + strlen(joint->name), "_end", 5);

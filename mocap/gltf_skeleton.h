@@ -24,4 +24,7 @@ ff_status ff_gltf_skeleton_find(const ff_gltf *gltf, int animation, ff_gltf_skel
 ff_status ff_gltf_skeleton_add_tips(const ff_gltf *gltf, ff_gltf_skeleton *skeleton, ff_error *error);
 void ff_gltf_skeleton_free(ff_gltf_skeleton *skeleton);
 
+/* A node's name as a joint's; "node_7" when the file gives none. */
+void ff_gltf_joint_name(const ff_gltf *gltf, int node, char name[64]);
+
 #endif

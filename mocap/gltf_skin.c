@@ -97,10 +97,11 @@ static ff_status add_vertices(reader *r, const attributes *a, int skin_index)
         for (int b = 0; b < FF_SKIN_BONES; ++b) {
             double index = a->joints[4 * i + (size_t)b];
             v->weight[b] = a->weights[4 * i + (size_t)b];
-            if (v->weight[b] > 0.0 && !(index < skin->joint_count))
+            bool known = index >= 0.0 && index < skin->joint_count;
+            if (v->weight[b] > 0.0 && !known)
                 return ff_fail(r->error, FF_ERR_PARSE, "vertex %zu hangs on joint %g of %d", i, index,
                                skin->joint_count);
-            v->joint[b] = index < skin->joint_count ? s->joint[nodes[(int)index]] : 0;
+            v->joint[b] = known ? s->joint[nodes[(int)index]] : 0;
         }
         if (!settle_weights(v)) return ff_fail(r->error, FF_ERR_PARSE, "vertex %zu hangs on no joint", i);
     }
@@ -117,7 +118,7 @@ static ff_status add_triangles(reader *r, const ff_gltf_primitive *p, const attr
     if (!to) return ff_fail(r->error, FF_ERR_NO_MEMORY, "no memory for %zu triangles", count);
     for (size_t i = 0; i < 3 * count; ++i) {
         double index = a->indices ? a->indices[i] : (double)i;
-        if (!(index < (double)a->count))
+        if (!(index >= 0.0 && index < (double)a->count))
             return ff_fail(r->error, FF_ERR_PARSE, "triangle %zu: no vertex %g among %zu", i / 3, index,
                            a->count);
         to[i / 3][i % 3] = (uint32_t)(first + (size_t)index);

@@ -36,9 +36,12 @@ typedef struct ff_skin {
     char warning[256];
 } ff_skin;
 
-/* Read the skin of the body that a clip of the file shows (path as for ff_clip_load). Meshes that merely hang on a joint
+/* Read the skin of a .gltf or .glb. Of several bodies the one with most joints is taken. Meshes that merely hang on a joint
  * (swords, hats) are not part of it. FF_ERR_NO_DATA when there is none. Free with ff_skin_free. */
 ff_status ff_skin_load(const char *path, const ff_load_options *options, ff_skin *out, ff_error *error);
 void ff_skin_free(ff_skin *skin);
+
+/* The joints as a clip of one frame, at rest. The caller frees it with ff_clip_free. */
+ff_status ff_skin_rest_clip(const ff_skin *skin, ff_clip *out, ff_error *error);
 
 #endif

@@ -201,6 +201,15 @@ static ff_status split_walks(ff_build_clip *clips, int count, ff_error *error)
     return status;
 }
 
+static ff_status add_skin(build *b, ff_error *error)
+{
+    const ff_catalogue *catalogue = b->catalogue;
+    ff_load_options options = ff_load_options_default();
+    const char *path = b->settings->skin;
+    if (!path && catalogue && catalogue->skin) path = catalogue->skin, options = catalogue->skin_options;
+    return path ? ff_pack_add_skin(&b->result->content, &b->rig, path, &options, error) : FF_OK;
+}
+
 /* Every clip of the pack: the good ones, then what was derived from them. They are shallow copies, which share what the
  * originals own. */
 typedef struct gathered {
@@ -260,6 +269,7 @@ static ff_status add_all(build *b, gathered *g, ff_example_set *set, ff_error *e
     if (status == FF_OK)
         status = ff_pack_add_clips(content, g->clips, g->count, b->settings->pack.poses.rate, error);
     if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
+    if (status == FF_OK) status = add_skin(b, error);
     if (status == FF_OK)
         status = ff_pack_add_meta(content, b->settings, g->clips, g->count, b->clips + b->good,
                                   b->count - b->good, set, error);

@@ -14,7 +14,8 @@ typedef struct ff_build_settings {
     const char
         *cache; /* folder in which results of clips are kept from build to build; NULL = none. The result does
                           not depend on it */
-    bool prune; /* remove from it what this build had no use for */
+    const char *skin; /* glTF file of the character to draw; NULL = what the catalogue says */
+    bool prune;       /* remove from it what this build had no use for */
 } ff_build_settings;
 
 typedef struct ff_build_result {

@@ -123,6 +123,15 @@ static void print_examples(const ff_pack *pack)
     }
 }
 
+static void print_skin(const ff_pack *pack)
+{
+    if (pack->skin_count == 0) return;
+    printf("\ncharacter:");
+    for (uint32_t i = 0; i < pack->skin_count; ++i)
+        printf("%s %u triangles", i ? "," : "", pack->skins[i].triangle_count);
+    printf("\n");
+}
+
 static void print_hull(const ff_pack *pack)
 {
     printf("\nvelocity hull (forward, left; m/s):");
@@ -206,6 +215,7 @@ static void print_all(const ff_pack *pack, const char *path)
     print_coverage(pack);
     print_examples(pack);
     print_hull(pack);
+    print_skin(pack);
     print_licences(pack);
     print_provenance(pack);
 }

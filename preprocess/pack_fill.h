@@ -24,4 +24,8 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
 ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff_example_set *set,
                            ff_tasks *tasks, ff_error *error);
 
+/* A character's surface at three levels of detail, and the thickness of its bones; after the rig. */
+ff_status ff_pack_add_skin(ff_pack_content *content, const ff_rig *rig, const char *path,
+                           const ff_load_options *options, ff_error *error);
+
 #endif

@@ -7,13 +7,13 @@ set -eu
 
 packages="gcc g++ make pkg-config clang libclang-rt-14-dev
     libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libtinygltf-dev librecast-dev
-    libceres-dev libjansson-dev libxxhash-dev libcmocka-dev"
+    libceres-dev libopenmesh-dev libjansson-dev libxxhash-dev libcmocka-dev"
 [ "${1:-}" != lint ] || packages="$packages clang-format clang-tidy cppcheck"
 # Not needed, but a test of the installed CMake file is skipped without it: cmake.
 
 give_up() {
     echo "setup: $1" >&2
-    echo "setup: needed are the development files of OpenCV (core, imgproc, imgcodecs), tinygltf, Ceres, jansson, xxHash" >&2
+    echo "setup: needed are the development files of OpenCV (core, imgproc, imgcodecs), tinygltf, Ceres, OpenMesh, jansson, xxHash" >&2
     echo "setup: and cmocka, gcc or clang (with its sanitizer runtimes), GNU make and pkg-config." >&2
     echo "setup: Debian 12 calls them:" $missing >&2
     exit 1

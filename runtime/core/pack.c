@@ -50,6 +50,9 @@ enum {
     SHARP,
     EVENTS,
     SUCCESSORS,
+    SKINS,
+    VERTICES,
+    TRIANGLES,
     KIND_COUNT
 };
 _Static_assert(KIND_COUNT == FF_PACK_SECTION_COUNT, "a kind of section is missing here");
@@ -81,6 +84,9 @@ static const section_kind kinds[KIND_COUNT] = {
     [SHARP] = {FF_SECTION_SHARP, sizeof(ff_pack_sharp), 0, 0},
     [EVENTS] = {FF_SECTION_EVENTS, sizeof(ff_pack_event), 0, 0},
     [SUCCESSORS] = {FF_SECTION_SUCCESSORS, sizeof(ff_pack_successor), 0, 0},
+    [SKINS] = {FF_SECTION_SKINS, sizeof(ff_pack_skin), 0, 0},
+    [VERTICES] = {FF_SECTION_VERTICES, sizeof(ff_pack_vertex), 0, 0},
+    [TRIANGLES] = {FF_SECTION_TRIANGLES, sizeof(ff_pack_triangle), 0, 0},
 };
 
 typedef struct section_view {
@@ -249,6 +255,12 @@ static void take_views(ff_pack *pack, const section_view *views)
     pack->event_count = (uint32_t)views[EVENTS].count;
     pack->successors = (const ff_pack_successor *)(const void *)views[SUCCESSORS].data;
     pack->successor_count = (uint32_t)views[SUCCESSORS].count;
+    pack->skins = (const ff_pack_skin *)(const void *)views[SKINS].data;
+    pack->skin_count = (uint32_t)views[SKINS].count;
+    pack->vertices = (const ff_pack_vertex *)(const void *)views[VERTICES].data;
+    pack->vertex_count = (uint32_t)views[VERTICES].count;
+    pack->triangles = (const ff_pack_triangle *)(const void *)views[TRIANGLES].data;
+    pack->triangle_count = (uint32_t)views[TRIANGLES].count;
 }
 
 static ff_status read_pack(ff_pack *pack, ff_error *error)

@@ -61,6 +61,12 @@ struct ff_pack {
     uint32_t sharp_count;
     const ff_pack_event *events;
     uint32_t event_count;
+    const ff_pack_skin *skins;
+    uint32_t skin_count;
+    const ff_pack_vertex *vertices;
+    uint32_t vertex_count;
+    const ff_pack_triangle *triangles;
+    uint32_t triangle_count;
     const ff_pack_successor *successors;
     uint32_t successor_count;
 };

@@ -191,8 +191,8 @@ static ff_status check_hull(const ff_pack *pack, ff_error *error)
 ff_status ff_pack_check(const ff_pack *pack, ff_error *error)
 {
     static ff_status (*const checks[])(const ff_pack *, ff_error *) = {
-        check_strings,   check_skeleton, ff_pack_check_streams, check_examples,
-        check_simplices, check_hull,     ff_pack_check_clips,   ff_pack_check_gait};
+        check_strings, check_skeleton,      ff_pack_check_streams, check_examples,    check_simplices,
+        check_hull,    ff_pack_check_clips, ff_pack_check_gait,    ff_pack_check_skin};
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; ++i) {
         ff_status status = checks[i](pack, error);
         if (status != FF_OK) return status;

@@ -16,6 +16,9 @@ ff_status ff_pack_check_clips(const ff_pack *pack, ff_error *error);
 /* Loops, correspondences, the semi-procedural clip and sharp turns (pack_check_gait.c). */
 ff_status ff_pack_check_gait(const ff_pack *pack, ff_error *error);
 
+/* Levels of detail, vertices and triangles (pack_check_skin.c). */
+ff_status ff_pack_check_skin(const ff_pack *pack, ff_error *error);
+
 /* Fail with FF_ERR_PARSE at the byte that `at` points to. */
 #define FF_PACK_REFUSE(section, at, ...)                                                                     \
     ff_fail_section(error, FF_ERR_PARSE, section, (uint64_t)((const unsigned char *)(at)-pack->data),        \

@@ -44,9 +44,12 @@ enum {
     FF_SECTION_GAIT_PATH = FF_TAG('G', 'P', 'T', 'H'),       /* ff_pack_gait_path: FF_GAIT_SAMPLES, or none */
     FF_SECTION_SHARP = FF_TAG('S', 'H', 'R', 'P'),           /* ff_pack_sharp */
     FF_SECTION_EVENTS = FF_TAG('E', 'V', 'N', 'T'),          /* ff_pack_event: of actions, in order of time */
+    FF_SECTION_SKINS = FF_TAG('S', 'K', 'I', 'N'), /* ff_pack_skin: levels of detail, finest first, or none */
+    FF_SECTION_VERTICES = FF_TAG('V', 'E', 'R', 'T'),   /* ff_pack_vertex */
+    FF_SECTION_TRIANGLES = FF_TAG('I', 'N', 'D', 'X'),  /* ff_pack_triangle */
     FF_SECTION_SUCCESSORS = FF_TAG('N', 'E', 'X', 'T'), /* ff_pack_successor: of actions, nearest first */
 };
-#define FF_PACK_SECTION_COUNT 26
+#define FF_PACK_SECTION_COUNT 29
 
 typedef struct ff_pack_header {
     uint64_t magic;
@@ -72,6 +75,22 @@ typedef struct ff_pack_joint {
     float offset[3]; /* m from the parent; joint 0: (0, hips height in the rest pose, 0) */
     float radius;    /* m, of the bone that starts here, for drawing and colliders */
 } ff_pack_joint;
+
+/* The surface of a character in the rest pose, at one level of detail: a stretch of VERT and of INDX. Drawing may use it;
+ * a pack without any is drawn as a body of capsules about its bones. */
+typedef struct ff_pack_skin {
+    uint32_t first_vertex, vertex_count;
+    uint32_t first_triangle, triangle_count;
+} ff_pack_skin;
+typedef struct ff_pack_vertex {
+    float position[3], normal[3]; /* m, rest pose; unit */
+    float uv[2];
+    uint8_t joints[4];  /* unused ones are 0 */
+    uint8_t weights[4]; /* / 255, of the joints; they add up to 255 */
+} ff_pack_vertex;
+typedef struct ff_pack_triangle {
+    uint32_t corner[3]; /* vertices of its level, from first_vertex on; counter-clockwise from outside */
+} ff_pack_triangle;
 
 /* A point fixed on a joint: tips and heels. kind: 0 head top, 1 left hand, 2 right hand, 3 left toe,
  * 4 right toe, 5 left heel, 6 right heel. The sole is at y = 0 in the rest pose. */

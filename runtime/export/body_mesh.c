@@ -276,8 +276,33 @@ static ff_status sort_by_cover(builder *b, ff_error *error)
     return FF_OK;
 }
 
+/* The pack's own character in place of a body made from the bones: dressed in one colour, its shirt's. */
+static ff_status take_character(const ff_figure *figure, ff_body_mesh *out, ff_error *error)
+{
+    memset(out, 0, sizeof *out);
+    ff_body_vertex *v = ff_array_grow(&out->vertices, figure->vertex_count, sizeof *v);
+    uint32_t(*t)[3] = ff_array_grow(&out->triangles, figure->triangle_count, sizeof *t);
+    if (!v || !t) {
+        ff_body_mesh_free(out);
+        return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the character's surface");
+    }
+    for (uint32_t i = 0; i < figure->vertex_count; ++i) {
+        const ff_pack_vertex *from = &figure->vertices[i];
+        v[i] = (ff_body_vertex){.cover = FF_COVER_SHIRT};
+        memcpy(v[i].position, from->position, sizeof v[i].position);
+        memcpy(v[i].normal, from->normal, sizeof v[i].normal);
+        memcpy(v[i].joints, from->joints, sizeof v[i].joints);
+        memcpy(v[i].weights, from->weights, sizeof v[i].weights);
+    }
+    memcpy(t, figure->triangles, figure->triangle_count * sizeof *t);
+    for (int cover = FF_COVER_SHIRT + 1; cover <= FF_COVER_COUNT; ++cover)
+        out->cover_first[cover] = figure->triangle_count;
+    return FF_OK;
+}
+
 ff_status ff_body_mesh_make(const ff_figure *figure, double cell, ff_body_mesh *out, ff_error *error)
 {
+    if (figure->vertices) return take_character(figure, out, error);
     ff_body_shape shape;
     ff_body_shape_make(figure, &shape);
     memset(out, 0, sizeof *out);

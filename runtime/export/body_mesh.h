@@ -1,4 +1,5 @@
-/* body_mesh.h - one skinned human body, made from a figure at run time and shared by everybody. */
+/* body_mesh.h - one skinned body shared by everybody: the pack's character, or else a person made from the bones at run
+ * time. */
 #ifndef FF_BODY_MESH_H
 #define FF_BODY_MESH_H
 

@@ -1,6 +1,7 @@
 #include "runtime/export/figure.h"
 
 #include "runtime/core/base/fail.h"
+#include "runtime/core/pack.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +40,14 @@ ff_status ff_figure_from_pack(const ff_pack *pack, ff_figure *out, ff_error *err
         offsets[j] = ff_pack_joint_offset(pack, j);
         names[j] = ff_pack_joint_name(pack, j);
     }
-    return ff_figure_from_joints(count, parents, offsets, names, out, error);
+    ff_status status = ff_figure_from_joints(count, parents, offsets, names, out, error);
+    if (status != FF_OK || pack->skin_count == 0) return status;
+    const ff_pack_skin *finest = &pack->skins[0];
+    out->vertices = pack->vertices + finest->first_vertex;
+    out->vertex_count = finest->vertex_count;
+    out->triangles = pack->triangles + finest->first_triangle;
+    out->triangle_count = finest->triangle_count;
+    return FF_OK;
 }
 
 void ff_figure_place(const ff_figure *figure, ff_vec3 hips, const ff_quat *local, ff_vec3 *positions,

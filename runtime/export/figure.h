@@ -9,6 +9,7 @@
 
 #include "runtime/core/base/maths.h"
 #include "runtime/core/joints.h"
+#include "runtime/core/pack_format.h"
 
 #define FF_FIGURE_MAX_JOINTS 64
 
@@ -18,6 +19,10 @@ typedef struct ff_figure {
     ff_vec3 offset[FF_FIGURE_MAX_JOINTS]; /* m, from the parent; hips: from the ground */
     ff_vec3 rest[FF_FIGURE_MAX_JOINTS];   /* m, in the rest pose */
     char name[FF_FIGURE_MAX_JOINTS][48];
+    /* The character's surface, finest level, borrowed from the pack; NULL = none, a body is made from the bones. */
+    const ff_pack_vertex *vertices;
+    const ff_pack_triangle *triangles;
+    uint32_t vertex_count, triangle_count;
 } ff_figure;
 
 /* Fails with FF_ERR_UNSUPPORTED when the skeleton is not one of a person (fewer joints than FF_JOINT_COUNT). */

@@ -266,6 +266,18 @@ static const bad_record bad_records[] = {
     {FF_SECTION_GAIT_PATH, 3, offsetof(ff_pack_gait_path, pitch), NAN_WORD},
     {FF_SECTION_SHARP, 0, offsetof(ff_pack_sharp, side), 0},
     {FF_SECTION_SHARP, 1, offsetof(ff_pack_sharp, direction), 0},
+    {FF_SECTION_SKINS, 0, offsetof(ff_pack_skin, first_vertex), 4},
+    {FF_SECTION_SKINS, 1, offsetof(ff_pack_skin, vertex_count), MINUS_ONE},
+    {FF_SECTION_SKINS, 1, offsetof(ff_pack_skin, vertex_count), 2},
+    {FF_SECTION_SKINS, 0, offsetof(ff_pack_skin, first_triangle), 2},
+    {FF_SECTION_SKINS, 0, offsetof(ff_pack_skin, triangle_count), 0},
+    {FF_SECTION_VERTICES, 0, offsetof(ff_pack_vertex, position), HUGE_WORD},
+    {FF_SECTION_VERTICES, 6, offsetof(ff_pack_vertex, normal), NAN_WORD},
+    {FF_SECTION_VERTICES, 6, offsetof(ff_pack_vertex, uv), NAN_WORD},
+    {FF_SECTION_VERTICES, 1, offsetof(ff_pack_vertex, joints), 200},
+    {FF_SECTION_VERTICES, 1, offsetof(ff_pack_vertex, weights), 0x0101},
+    {FF_SECTION_TRIANGLES, 1, offsetof(ff_pack_triangle, corner) + 4, 4},
+    {FF_SECTION_TRIANGLES, 2, offsetof(ff_pack_triangle, corner), 3},
 };
 
 static void every_bad_record_is_refused_in_its_own_section(void **state)

@@ -286,6 +286,24 @@ static inline void ff_walker_gait(ff_pack_content *content)
     sharp[1] = (ff_pack_sharp){{0.0f, -0.3f}, {1.0f, 0.0f}, -1};
 }
 
+/* Two levels of a surface: two triangles, then one. */
+static inline void ff_walker_skin(ff_pack_content *content)
+{
+    ff_pack_skin *skin = ff_walker_push(&content->skins, 2, sizeof *skin);
+    skin[0] = (ff_pack_skin){0, 4, 0, 2};
+    skin[1] = (ff_pack_skin){4, 3, 2, 1};
+    ff_pack_vertex *v = ff_walker_push(&content->vertices, 7, sizeof *v);
+    for (int i = 0; i < 7; ++i)
+        v[i] = (ff_pack_vertex){.position = {0.1f * (float)(i & 1), 0.1f * (float)(i & 2), 0.0f},
+                                .normal = {0.0f, 0.0f, 1.0f},
+                                .joints = {FF_JOINT_CHEST, FF_JOINT_SPINE},
+                                .weights = {200, 55}};
+    ff_pack_triangle *t = ff_walker_push(&content->triangles, 3, sizeof *t);
+    t[0] = (ff_pack_triangle){{0, 1, 2}};
+    t[1] = (ff_pack_triangle){{1, 3, 2}};
+    t[2] = (ff_pack_triangle){{0, 1, 2}};
+}
+
 static inline void ff_walker_content(ff_pack_content *content, const ff_walker_grid *grid)
 {
     memset(content, 0, sizeof *content);
@@ -305,6 +323,7 @@ static inline void ff_walker_content(ff_pack_content *content, const ff_walker_g
     memcpy(ff_walker_push(&content->hull, 4, sizeof *hull), hull, sizeof hull);
     ff_walker_push(&content->tracks, 2 * 2, sizeof(ff_pack_track));
     ff_walker_gait(content);
+    ff_walker_skin(content);
     if (ff_pack_set_meta(content, "{}", NULL) != FF_OK) abort();
 }
 

@@ -28,4 +28,26 @@ else
     done
 fi
 
+# What the crowd writes is a glTF file as others write them: its people can be read back and worn.
+a_pack_with_a_skin_is_drawn_with_it() {
+    echo '{"kind": "custom", "seconds": 1.5, "agents": [{"position": [0, 0], "goal": [0, 5]}]}' >"$work/one.json"
+    run 0 "$crowd" run "$work/one.json" --pack "$FF_BUILD/builtin.ffpack" --out "$work/plain" --quiet &&
+        run 0 "$pack" build --skin "$work/plain/crowd.glb" --no-cache --quiet --out "$work/worn.ffpack" &&
+        run 0 "$pack" inspect "$work/worn.ffpack" && says out "character:" &&
+        run 0 "$crowd" run "$work/one.json" --pack "$work/worn.ffpack" --out "$work/worn" --quiet &&
+        same_size_within "$work/plain/crowd.glb" "$work/worn/crowd.glb"
+}
+# One body of as many triangles: not the same bytes (normals are new), but nearly as many.
+same_size_within() {
+    a=$(wc -c <"$1") b=$(wc -c <"$2")
+    [ "$b" -gt $((a / 2)) ] && [ "$b" -lt $((a * 2)) ] || { echo "$a bytes became $b"; return 1; }
+}
+test_that "a pack built with a skin is drawn with it" a_pack_with_a_skin_is_drawn_with_it
+
+a_skin_that_is_none_is_refused() {
+    run 1 "$pack" build --skin README.md --no-cache --quiet --out "$work/none.ffpack" && says err "README.md" &&
+        [ ! -e "$work/none.ffpack" ]
+}
+test_that "a skin that is none is refused and no pack is written" a_skin_that_is_none_is_refused
+
 finish
