@@ -252,6 +252,7 @@ ff_status ff_build_clip_store(ff_build_clip *clip, const ff_build_shared *shared
     size_t rest = (size_t)clip->clip.rest_frames;
     ff_pose_motion poses = {.frame_count = motion->frame_count - (int)rest,
                             .frame_time = motion->frame_time,
+                            .bytes = shared->settings->poses.bytes,
                             .root = motion->root + rest,
                             .hips = motion->hips + rest,
                             .rotations = motion->rotations + rest * FF_ROLE_JOINT_COUNT};

@@ -12,8 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TOP_RATE 120.0 /* Hz: keys at most */
-#define MOST 5300.0    /* bytes per second of a whole stream (issue 3, bar 5: 8,000 for 31 joints, here 21) */
+#define TOP_RATE 120.0    /* Hz: keys at most */
 #define LEAST_KEYS 3000.0 /* bytes per second of keys that even the shortest stream may have */
 #define WORTH 1e-10       /* m2 of mean square error that a byte per second must gain */
 #define ROOT_ERROR 1e-4   /* m, rad */
@@ -175,7 +174,8 @@ static void choose_ways(encoder *e)
     double tables = sizeof(ff_pack_stream) + sizeof(ff_pack_slots) + FF_STREAM_SLACK +
                     (FF_LANES_MAX / 8.0 + 2.0) * sizeof(ff_pack_lanes);
     if (e->motion->root) tables += (e->fit[e->root_level].intervals + 3) * 3.0 * sizeof(float);
-    double limit = ff_max(MOST - tables / e->seconds, LEAST_KEYS);
+    double most = e->motion->bytes > 0.0 ? e->motion->bytes : FF_POSE_BYTES;
+    double limit = ff_max(most - tables / e->seconds, LEAST_KEYS * most / FF_POSE_BYTES);
     if (choose(e, WORTH) <= limit) return;
     double dear = WORTH, cheap = 1.0;
     for (int i = 0; i < 60; ++i) {

@@ -5,11 +5,15 @@
 #include "preprocess/pack_write.h"
 #include "runtime/core/base/maths.h"
 
+/* Bytes per second that suffice even for noisy capture (issue 3, bar 5: 8,000 for 31 joints, here are 21). */
+#define FF_POSE_BYTES 5300.0
+
 /* What is to be stored, at its own rate, on the pack's skeleton. */
 typedef struct ff_pose_motion {
     int frame_count;
     double frame_time; /* s */
     bool cyclic;
+    double bytes;        /* at most so many per second; 0 = FF_POSE_BYTES */
     const ff_vec3 *root; /* [frame_count] a, b, heading; NULL = stays at zero */
     const ff_vec3 *hips; /* [frame_count] forward, left of the root, height */
     const ff_quat

@@ -1,5 +1,7 @@
 #include "preprocess/settings.h"
 
+#include "preprocess/pose_encode.h"
+
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
 #include "runtime/core/base/memory.h"
@@ -33,6 +35,8 @@ const ff_setting ff_setting_table[] = {
     SWITCH(motion, clean, FF_STAGE_CUT, true, "planted feet are made to stand still"),
     NUMBER(poses, rate, FF_STAGE_PACK, "Hz", FF_PACK_RATE, 10.0, 240.0,
            "how often the report shows heights and speeds of feet"),
+    NUMBER(poses, bytes, FF_STAGE_CUT, "bytes per second", FF_POSE_BYTES, 1000.0, 100000.0,
+           "how many a clip's motion may take; smooth motion takes less"),
     WHOLE(actions, count, FF_STAGE_PACK, 0.0, 0.0, 100000.0,
           "how many actions the pack has, without mirror images; the best are chosen; 0 = all"),
     SWITCH(actions, derive, FF_STAGE_PACK, true,

@@ -12,7 +12,7 @@ typedef struct ff_settings {
         bool clean;
     } motion;
     struct {
-        double rate;
+        double rate, bytes;
     } poses;
     struct {
         int64_t count;

@@ -124,8 +124,8 @@ enum { FF_STREAM_CYCLIC = 1, FF_STREAM_FOUR_PARTS = 2 };
 enum { FF_STREAM_LEVELS = 4, FF_STREAM_SLOTS = 24, FF_STREAM_HIPS = 21, FF_STREAM_BLOCKS = 31 };
 
 /* Keys 0 to intervals + 2 of all lanes of one rate; intervals span the stream. A key holds the wide lanes as int16, then
- * the narrow ones as int8, then a 0 where the number of narrow ones is odd. A cyclic stream's last three keys are its
- * first three. FF_STREAM_SLACK more bytes lie behind a stream's last key, so that whole vectors can be read. */
+ * the narrow ones as int8; keys follow each other without gaps, at odd addresses too. A cyclic stream's last three keys
+ * are its first three. FF_STREAM_SLACK more bytes lie behind a stream's last key, so that whole vectors can be read. */
 #define FF_STREAM_SLACK 16u
 typedef struct ff_pack_level {
     uint32_t first_byte; /* into KEYS */

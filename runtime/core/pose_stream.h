@@ -7,7 +7,7 @@
 /* Bytes from key to key. */
 static inline size_t ff_level_stride(const ff_pack_level *level)
 {
-    return 2 * (size_t)level->wide + (((size_t)level->narrow + 1) & ~(size_t)1);
+    return 2 * (size_t)level->wide + (size_t)level->narrow;
 }
 
 /* How many ff_pack_lanes a stream has. */
