@@ -233,6 +233,39 @@ static void sliding_feet_are_brought_to_stand_exactly(void **state)
     }
 }
 
+/* The clip's hips are much wider than the rig's: legs are not to be splayed for it, and steps are to keep their length. */
+static void a_body_of_other_proportions_keeps_its_steps(void **state)
+{
+    (void)state;
+    ff_clip clip = generated_clip("walk-normal"), wide = clip_copy(&clip);
+    ff_rig rig = rig_of(&clip);
+    wide.joints[ff_clip_find(&wide, FF_ROLE_HIP_L)].offset.x *= 1.6;
+    wide.joints[ff_clip_find(&wide, FF_ROLE_HIP_R)].offset.x *= 1.6;
+    made_motion made = make_motion(&rig, wide);
+    ff_clean_report report;
+    ff_error error;
+    add_skate(&made.motion, 0.01);
+    FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error), error);
+    FF_ASSERT_BELOW(report.turn_mean, 1.5 * FF_DEG);
+    const ff_plant *last = NULL;
+    ff_vec3 stood = {0.0, 0.0, 0.0};
+    for (int p = 0; p < made.plants.count; ++p) {
+        const ff_plant *plant = &made.plants.items[p];
+        if (plant->flat_start < 0) continue;
+        ff_vec3 at[FF_BODY_COUNT];
+        ff_motion_pose(&rig, &made.motion, plant->flat_start, at, NULL);
+        ff_vec3 ball = at[ff_leg_role(plant->foot, FF_LEG_BALL)];
+        if (last && last->foot != plant->foot) {
+            double want = made.motion.scale * (plant->ball.a - last->ball.a);
+            FF_ASSERT_NEAR(ball.z - stood.z, want, 0.006); /* straight ahead is +a */
+        }
+        last = plant;
+        stood = ball;
+    }
+    made_motion_free(&made);
+    ff_clip_free(&clip);
+}
+
 static void feet_that_stand_are_left_alone_to_the_last_bit(void **state)
 {
     (void)state;
@@ -408,6 +441,7 @@ int main(void)
         cmocka_unit_test(places_are_those_of_the_posed_body),
         cmocka_unit_test(a_leg_reaches_what_it_can_and_bends_forward_only),
         cmocka_unit_test(sliding_feet_are_brought_to_stand_exactly),
+        cmocka_unit_test(a_body_of_other_proportions_keeps_its_steps),
         cmocka_unit_test(feet_that_stand_are_left_alone_to_the_last_bit),
         cmocka_unit_test(the_same_motion_gives_the_same_bits),
         cmocka_unit_test(other_rates_are_cleaned_alike),
