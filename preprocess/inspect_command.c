@@ -258,15 +258,19 @@ static json_t *examples_json(const ff_pack *pack)
     json_t *list = json_array();
     for (uint32_t i = 0; i < pack->example_count; ++i) {
         const ff_pack_example *e = &pack->examples[i];
+        const ff_pack_loop none = {0}, *loop = pack->loop_count ? &pack->loops[i] : &none;
         json_array_append_new(
             list,
-            json_pack("{s:s, s:s, s:b, s:b, s:b, s:f, s:f, s:f, s:f, s:f, s:[f, f, f, f]}", "name",
-                      ff_pack_string(pack, e->name), "gait", e->gait ? "run" : "walk", "idle",
+            json_pack("{s:s, s:s, s:b, s:b, s:b, s:f, s:f, s:f, s:f, s:f, s:[f, f, f, f], s:{s:f, s:f, s:f, "
+                      "s:f, s:f}}",
+                      "name", ff_pack_string(pack, e->name), "gait", e->gait ? "run" : "walk", "idle",
                       (e->flags & FF_EXAMPLE_IDLE) != 0, "mirrored", (e->flags & FF_EXAMPLE_MIRRORED) != 0,
                       "derived", (e->flags & FF_EXAMPLE_DERIVED) != 0, "v_forward", (double)e->v_forward,
                       "v_left", (double)e->v_left, "turn_rate", (double)e->turn_rate, "period",
                       (double)e->period, "seam", (double)e->seam, "key", (double)e->key[0], (double)e->key[1],
-                      (double)e->key[2], (double)e->key[3]));
+                      (double)e->key[2], (double)e->key[3], "loop", "cut", (double)loop->cut, "moved",
+                      (double)loop->moved, "jump", (double)loop->jump, "cut_kick", (double)loop->cut_kick,
+                      "contact_kick", (double)loop->contact_kick));
     }
     return list;
 }
@@ -283,11 +287,12 @@ static void print_json(const ff_pack *pack, const char *path)
 {
     json_error_t place;
     json_t *meta = json_loadb(pack->meta, (size_t)pack->meta_size, 0, &place);
-    json_t *root = json_pack(
-        "{s:s, s:I, s:i, s:i, s:o, s:o, s:o, s:o, s:o, s:o}", "pack", path, "bytes", (json_int_t)pack->size,
-        "joints", (int)pack->joint_count, "simplices", (int)pack->simplex_count, "clips", clips_json(pack),
-        "actions", actions_json(pack), "coverage", coverage_json(pack), "examples", examples_json(pack),
-        "hull", hull_json(pack), "provenance", meta ? meta : json_null());
+    json_t *root = json_pack("{s:s, s:I, s:i, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "pack", path, "bytes",
+                             (json_int_t)pack->size, "joints", (int)pack->joint_count, "simplices",
+                             (int)pack->simplex_count, "clips", clips_json(pack), "actions",
+                             actions_json(pack), "coverage", coverage_json(pack), "examples",
+                             examples_json(pack), "correspondences", ff_correspondences_json(pack), "hull",
+                             hull_json(pack), "provenance", meta ? meta : json_null());
     if (root) json_dumpf(root, stdout, JSON_INDENT(1));
     printf("\n");
     json_decref(root);

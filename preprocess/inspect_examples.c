@@ -135,3 +135,22 @@ void ff_inspect_examples(const ff_pack *pack)
     print_loops(pack);
     print_correspondences(pack);
 }
+
+json_t *ff_correspondences_json(const ff_pack *pack)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < pack->correspondence_count; ++i) {
+        const ff_pack_correspondence *c = &pack->correspondences[i];
+        json_t *pairs = json_array();
+        for (uint32_t k = 0; k < c->pair_count; ++k) {
+            const ff_pack_pair *pair = &pack->pairs[c->first_pair + k];
+            json_array_append_new(pairs, json_pack("[f, f, f]", (double)pair->phase[0],
+                                                   (double)pair->phase[1], (double)pair->rms));
+        }
+        json_array_append_new(list, json_pack("{s:i, s:i, s:b, s:[f, f], s:o}", "from", (int)c->from, "to",
+                                              c->to == FF_CORRESPOND_GAIT ? -1 : (int)c->to, "by_keys",
+                                              (c->flags & FF_CORRESPOND_KEYS) != 0, "wait",
+                                              (double)c->wait[0], (double)c->wait[1], "pairs", pairs));
+    }
+    return list;
+}
