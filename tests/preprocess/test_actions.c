@@ -5,6 +5,7 @@
 #include "preprocess/coverage.h"
 #include "preprocess/successors.h"
 #include "runtime/core/pack.h"
+#include "tests/core/pack_seal.h"
 #include "tests/preprocess/motion_make.h"
 
 #include <stdio.h>
@@ -311,6 +312,56 @@ static void events_are_what_the_plants_say(void **state)
     cut_free(&c);
 }
 
+/* The image with one record changed is refused, with the section's name. */
+static void refuses(const built *b, size_t size, size_t at, const void *value, size_t bytes,
+                    const char *section)
+{
+    void *copy = NULL;
+    ff_pack *pack = NULL;
+    ff_error error;
+    assert_int_equal(posix_memalign(&copy, FF_PACK_ALIGN, size), 0);
+    memcpy(copy, b->image, size);
+    memcpy((char *)copy + at, value, bytes);
+    ff_pack_seal(copy, size);
+    assert_int_equal(ff_pack_open_memory(copy, size, &pack, &error), FF_ERR_PARSE);
+    assert_string_equal(error.section, section);
+    free(copy);
+}
+
+static void the_loader_refuses_events_and_successors_that_do_not_fit(void **state)
+{
+    (void)state;
+    built b = build_in(0, false);
+    const ff_pack *pack = b.pack;
+    const char *image = b.image;
+    const ff_pack_action *first = NULL;
+    for (uint32_t i = 0; i < pack->action_count && !first; ++i)
+        if (pack->actions[i].successor_count >= 3 && pack->actions[i].event_count >= 3)
+            first = &pack->actions[i];
+    assert_non_null(first);
+    const ff_pack_successor *next = &pack->successors[first->first_successor];
+    const ff_pack_event *event = &pack->events[first->first_event];
+#define PLACE(member) (size_t)((const char *)(member)-image)
+    const uint32_t many = 0x7fffffff, two = 2, foot = 7;
+    const float far = 9.0f, minus = -1.0f, nothing = NAN, late = first->t_end + 1.0f;
+    refuses(&b, pack->size, PLACE(&next->action), &pack->action_count, 4, "NEXT");
+    refuses(&b, pack->size, PLACE(&next->distance), &far, 4, "NEXT");
+    refuses(&b, pack->size, PLACE(&next->distance), &nothing, 4, "NEXT");
+    refuses(&b, pack->size, PLACE(&next->cost), &minus, 4, "NEXT");
+    refuses(&b, pack->size, PLACE(&event->time), &late, 4, "EVNT");
+    refuses(&b, pack->size, PLACE(&event->foot), &two, 4, "EVNT");
+    refuses(&b, pack->size, PLACE(&event->kind), &foot, 4, "EVNT");
+    refuses(&b, pack->size, PLACE(&event->plant), &pack->plant_count, 4, "EVNT");
+    refuses(&b, pack->size, PLACE(&first->first_event), &many, 4, "ACTN");
+    refuses(&b, pack->size, PLACE(&first->successor_count), &many, 4, "ACTN");
+    refuses(&b, pack->size, PLACE(&first->flags), &many, 4, "ACTN");
+    refuses(&b, pack->size, PLACE(&pack->clips[0].flags), &many, 4, "CLIP");
+    refuses(&b, pack->size, PLACE(&pack->plants[0].origin), &foot, 4, "PLNT");
+    refuses(&b, pack->size, PLACE(&pack->plants[0].level), &nothing, 4, "PLNT");
+#undef PLACE
+    built_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -321,6 +372,7 @@ int main(void)
         cmocka_unit_test(the_distance_is_in_metres),
         cmocka_unit_test(derived_actions_fill_what_is_missing_and_stand_where_they_should),
         cmocka_unit_test(events_are_what_the_plants_say),
+        cmocka_unit_test(the_loader_refuses_events_and_successors_that_do_not_fit),
     };
     return cmocka_run_group_tests(tests, write_clips, remove_clips);
 }
