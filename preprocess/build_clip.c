@@ -265,6 +265,25 @@ ff_status ff_build_clip_store(ff_build_clip *clip, const ff_build_shared *shared
     return status;
 }
 
+ff_status ff_build_clip_motion(ff_build_clip *clip, const ff_build_shared *shared)
+{
+    const ff_plants *plants = &clip->plants;
+    ff_clip whole;
+    ff_status status = ff_build_clip_read(clip, &whole, &clip->error);
+    if (status != FF_OK) return status;
+    status = ff_motion_from_clip(shared->rig, &whole, plants, &clip->motion, &clip->error);
+    ff_clip_free(&whole);
+    if (status == FF_OK && shared->settings->motion.clean)
+        status = ff_motion_clean(shared->rig, &clip->motion, plants, &clip->cleaned, &clip->error);
+    return status;
+}
+
+ff_status ff_build_clip_actions(ff_build_clip *clip, const ff_build_shared *shared)
+{
+    return ff_actions_cut(shared->rig, &clip->motion, &clip->plants, mode_tag(clip->mode), &clip->actions,
+                          &clip->error);
+}
+
 static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
 {
     const ff_plants *plants = &clip->plants;
@@ -272,15 +291,8 @@ static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
     bool walks = mode != FF_MODE_JUMP && mode != FF_MODE_CLIMB && mode != FF_MODE_CROUCH &&
                  !has_tag(clip->tags, FF_TAG_NO_EXAMPLE);
     const ff_rig *rig = shared->rig;
-    ff_clip whole;
-    ff_status status = ff_build_clip_read(clip, &whole, &clip->error);
-    if (status != FF_OK) return status;
-    status = ff_motion_from_clip(rig, &whole, plants, &clip->motion, &clip->error);
-    ff_clip_free(&whole);
-    if (status == FF_OK && shared->settings->motion.clean)
-        status = ff_motion_clean(rig, &clip->motion, plants, &clip->cleaned, &clip->error);
-    if (status == FF_OK)
-        status = ff_actions_cut(rig, &clip->motion, plants, mode, &clip->actions, &clip->error);
+    ff_status status = ff_build_clip_motion(clip, shared);
+    if (status == FF_OK) status = ff_build_clip_actions(clip, shared);
     if (status == FF_OK && walks)
         status =
             ff_cycles_cut(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles, &clip->error);

@@ -65,6 +65,10 @@ void ff_build_clip_cut(ff_build_clip *clip, const ff_build_shared *shared);
  * afterwards. */
 ff_status ff_build_clip_store(ff_build_clip *clip, const ff_build_shared *shared);
 
+/* Parts of stage 2, which checks of a pack go through again: motion, with its frames; then actions. */
+ff_status ff_build_clip_motion(ff_build_clip *clip, const ff_build_shared *shared);
+ff_status ff_build_clip_actions(ff_build_clip *clip, const ff_build_shared *shared);
+
 static inline double ff_build_clip_seconds(const ff_build_clip *clip)
 {
     return (clip->frames - 1) * clip->clip.frame_time;

@@ -10,6 +10,7 @@
 #include "preprocess/report.h"
 #include "preprocess/settings.h"
 #include "preprocess/steps_command.h"
+#include "preprocess/validate_command.h"
 #include "runtime/tool/command_line.h"
 
 #include <signal.h>
@@ -21,6 +22,7 @@ static const ff_subcommand commands[] = {
     {"extract", "write an action, example or clip of a pack as BVH or glTF", ff_extract_command},
     {"inspect", "say what is in a motion pack", ff_inspect_command},
     {"diff", "say what changed from one pack to another", ff_diff_command},
+    {"validate", "check a pack against itself and against its clips", ff_validate_command},
     {"plants", "list the foot plants of clips", ff_plants_command},
     {"steps", "how clips are walked, in numbers", ff_steps_command},
     {"clean", "measure what cleaning up the feet does to clips", ff_clean_command},
