@@ -60,7 +60,8 @@ ff_status ff_catalogue_add_clips(ff_catalogue_builder *builder, ff_catalogue_ent
     bool several = ending && (strcasecmp(ending, ".gltf") == 0 || strcasecmp(ending, ".glb") == 0);
     /* A file that cannot be read is left to the build, which names it and goes on with the others. */
     if (several && ff_file_map(entry.path, &file, NULL) == FF_OK) {
-        ff_status status = ff_gltf_open(file.data, file.size, entry.path, &gltf, NULL);
+        ff_status status =
+            ff_gltf_open(file.data, file.size, entry.path, (ff_gltf_keys){.all = true}, &gltf, NULL);
         ff_file_unmap(&file);
         if (status == FF_OK) {
             status = add_animations(builder, entry, &gltf, error);

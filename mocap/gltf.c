@@ -70,12 +70,13 @@ static ff_status check_views(const ff_gltf *gltf, ff_error *error)
     for (int i = 0; i < gltf->view_count; ++i) {
         const ff_gltf_view *view = &gltf->views[i];
         if (view->buffer < 0 || view->buffer >= gltf->buffer_count)
-            return ff_fail(error, FF_ERR_PARSE, "bufferViews[%d].buffer: no buffer %d", i, view->buffer);
+            return ff_fail(error, FF_ERR_PARSE, "bufferViews[%d].buffer: no buffer %d", view->number,
+                           view->buffer);
         size_t size = gltf->buffers[view->buffer].size;
         if (view->offset > size || view->size > size - view->offset)
             return ff_fail(error, FF_ERR_PARSE,
-                           "bufferViews[%d]: bytes %zu to %zu of buffer %d, which has %zu", i, view->offset,
-                           view->offset + view->size, view->buffer, size);
+                           "bufferViews[%d]: bytes %zu to %zu of buffer %d, which has %zu", view->number,
+                           view->offset, view->offset + view->size, view->buffer, size);
     }
     return FF_OK;
 }
@@ -99,21 +100,22 @@ static ff_status check_accessors(const ff_gltf *gltf, ff_error *error)
     for (int i = 0; i < gltf->accessor_count; ++i) {
         const ff_gltf_accessor *a = &gltf->accessors[i];
         if (component_size(a->at.component) == 0)
-            return ff_fail(error, FF_ERR_PARSE, "accessors[%d].componentType: %d is none", i,
+            return ff_fail(error, FF_ERR_PARSE, "accessors[%d].componentType: %d is none", a->number,
                            a->at.component);
         if (a->count == 0 || a->width < 1 || a->width > 16)
-            return ff_fail(error, FF_ERR_PARSE, "accessors[%d]: holds nothing", i);
+            return ff_fail(error, FF_ERR_PARSE, "accessors[%d]: holds nothing", a->number);
         if (a->at.view >= 0 ? !fits(gltf, &a->at, a->count, a->width, false) : a->count > MOST_ZEROS)
             return ff_fail(error, FF_ERR_PARSE, "accessors[%d]: %zu elements do not fit into bufferView %d",
-                           i, a->count, a->at.view);
+                           a->number, a->count, a->at.view);
         if (a->sparse_count == 0) continue;
         int index = a->sparse_indices.component;
         if (index != FF_GLTF_U8 && index != FF_GLTF_U16 && index != FF_GLTF_U32)
             return ff_fail(error, FF_ERR_PARSE,
-                           "accessors[%d].sparse.indices.componentType: %d is no unsigned integer", i, index);
+                           "accessors[%d].sparse.indices.componentType: %d is no unsigned integer", a->number,
+                           index);
         if (a->sparse_count > a->count || !fits(gltf, &a->sparse_indices, a->sparse_count, 1, true) ||
             !fits(gltf, &a->sparse_values, a->sparse_count, a->width, true))
-            return ff_fail(error, FF_ERR_PARSE, "accessors[%d].sparse: %zu elements do not fit", i,
+            return ff_fail(error, FF_ERR_PARSE, "accessors[%d].sparse: %zu elements do not fit", a->number,
                            a->sparse_count);
     }
     return FF_OK;
@@ -148,13 +150,13 @@ static ff_status check_channels(const ff_gltf *gltf, int animation, ff_error *er
         if (input->width != 1 || input->at.component != FF_GLTF_F32)
             return ff_fail(error, FF_ERR_PARSE,
                            "animations[%d].channels[%d]: times are not single floats (accessors[%d])",
-                           animation, c, channel->input);
+                           animation, c, input->number);
         if (output->width != widths[channel->path] || output->count != input->count * values)
             return ff_fail(error, FF_ERR_PARSE,
                            "animations[%d].channels[%d]: %zu keys need %zu values of %d numbers, "
                            "accessors[%d] has %zu of %d",
                            animation, c, input->count, input->count * values, widths[channel->path],
-                           channel->output, output->count, output->width);
+                           output->number, output->count, output->width);
     }
     return FF_OK;
 }
@@ -220,12 +222,13 @@ void ff_gltf_close(ff_gltf *gltf)
     memset(gltf, 0, sizeof *gltf);
 }
 
-ff_status ff_gltf_open(const char *data, size_t size, const char *path, ff_gltf *out, ff_error *error)
+ff_status ff_gltf_open(const char *data, size_t size, const char *path, ff_gltf_keys keys, ff_gltf *out,
+                       ff_error *error)
 {
     memset(out, 0, sizeof *out);
     ff_gltf_guarded *guarded = ff_calloc(1, sizeof *guarded);
     if (!guarded) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the document");
-    ff_status status = ff_gltf_guard(data, size, path, guarded, error);
+    ff_status status = ff_gltf_guard(data, size, path, keys, guarded, error);
     if (status == FF_OK)
         status = ff_gltf_adapt(guarded->json, guarded->buffers, guarded->buffer_count, out, error);
     ff_gltf_guarded_free(guarded);
@@ -294,7 +297,7 @@ ff_status ff_gltf_read(const ff_gltf *gltf, int accessor, double **out, ff_error
     double *values = ff_calloc(a->count * width, sizeof *values);
     *out = NULL;
     if (!values)
-        return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for accessors[%d] of %zu elements", accessor,
+        return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for accessors[%d] of %zu elements", a->number,
                        a->count);
     bool finite = true, inside = true;
     for (size_t i = 0; a->at.view >= 0 && i < a->count; ++i)
@@ -314,6 +317,6 @@ ff_status ff_gltf_read(const ff_gltf *gltf, int accessor, double **out, ff_error
     free(values);
     if (!inside)
         return ff_fail(error, FF_ERR_PARSE, "accessors[%d].sparse: an index is beyond its %zu elements",
-                       accessor, a->count);
-    return ff_fail(error, FF_ERR_NOT_FINITE, "accessors[%d] holds nan, inf or absurd numbers", accessor);
+                       a->number, a->count);
+    return ff_fail(error, FF_ERR_NOT_FINITE, "accessors[%d] holds nan, inf or absurd numbers", a->number);
 }

@@ -26,6 +26,7 @@ typedef struct ff_gltf_node {
 typedef struct ff_gltf_view {
     int buffer;
     size_t offset, size, stride; /* bytes; stride 0 = packed */
+    int number;                  /* in the file */
 } ff_gltf_view;
 
 typedef struct ff_gltf_buffer {
@@ -54,6 +55,7 @@ typedef struct ff_gltf_accessor {
     int width; /* numbers per element */
     size_t count;
     bool normalised;
+    int number;          /* in the file */
     size_t sparse_count; /* elements that are replaced; 0 = not sparse */
     ff_gltf_place sparse_indices, sparse_values;
 } ff_gltf_accessor;
@@ -124,9 +126,20 @@ typedef struct ff_gltf {
     void *model; /* tinygltf's, which owns the buffers' bytes */
 } ff_gltf;
 
+/* Whose keys are read: those of all animations, or of one (name, or index in digits; NULL = the first). The others keep
+ * their places and names and have no channels. */
+typedef struct ff_gltf_keys {
+    bool all;
+    const char *animation;
+} ff_gltf_keys;
+
+/* Index of the animation that is so called, else of the one with that index, else -1; NULL is the first. */
+int ff_gltf_find_animation(const char *const *names, int count, const char *wanted);
+
 /* Read a .gltf or .glb that is in memory; path is where it came from: external buffers are looked for in its folder and
  * nowhere else. On failure *out is zeroed. */
-ff_status ff_gltf_open(const char *data, size_t size, const char *path, ff_gltf *out, ff_error *error);
+ff_status ff_gltf_open(const char *data, size_t size, const char *path, ff_gltf_keys keys, ff_gltf *out,
+                       ff_error *error);
 void ff_gltf_close(ff_gltf *gltf);
 
 /* All numbers of an accessor (count * width) as doubles: sparse elements put in, normalised integers made [-1, 1] or

@@ -22,28 +22,18 @@
 
 /* ------------------------------------------------------------------------------------------- which animation */
 
-static int only_animation(const ff_gltf *gltf, ff_clip *clip)
-{
-    if (gltf->animation_count > 1)
-        ff_clip_warn(clip, "%d animations, the first one is taken: name one as FILE#ANIMATION",
-                     gltf->animation_count);
-    return gltf->animation_count > 0 ? 0 : -1;
-}
-
 static ff_status choose_animation(const ff_gltf *gltf, const char *wanted, ff_clip *clip, int *out,
                                   ff_error *error)
 {
-    *out = -1;
-    if (!wanted) {
-        *out = only_animation(gltf, clip);
-    } else {
-        for (int i = 0; i < gltf->animation_count && *out < 0; ++i)
-            if (strcmp(gltf->animations[i].name, wanted) == 0) *out = i;
-        char *end = NULL;
-        long index = strtol(wanted, &end, 10);
-        if (*out < 0 && *wanted && *end == '\0' && index >= 0 && index < gltf->animation_count)
-            *out = (int)index;
-    }
+    const char **names = ff_calloc((size_t)gltf->animation_count, sizeof *names);
+    if (!names) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %d animations", gltf->animation_count);
+    for (int i = 0; i < gltf->animation_count; ++i)
+        names[i] = gltf->animations[i].name;
+    *out = ff_gltf_find_animation(names, gltf->animation_count, wanted);
+    free(names);
+    if (!wanted && gltf->animation_count > 1)
+        ff_clip_warn(clip, "%d animations, the first one is taken: name one as FILE#ANIMATION",
+                     gltf->animation_count);
     if (*out >= 0) return FF_OK;
     if (!wanted || gltf->animation_count == 0)
         return ff_fail(error, FF_ERR_NO_DATA, "the file has no animation");
@@ -242,7 +232,7 @@ ff_status ff_gltf_parse(const char *data, size_t size, const char *name, const c
 {
     memset(out, 0, sizeof *out);
     ff_gltf gltf;
-    ff_status status = ff_gltf_open(data, size, name, &gltf, error);
+    ff_status status = ff_gltf_open(data, size, name, (ff_gltf_keys){false, animation}, &gltf, error);
     if (status != FF_OK) return status;
     ff_gltf_skeleton skeleton = {0};
     ff_gltf_motion motion = {0};

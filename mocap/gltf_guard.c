@@ -222,8 +222,8 @@ static ff_status find_buffers(guard *g, const json_t *document)
     return status;
 }
 
-ff_status ff_gltf_guard(const char *data, size_t size, const char *path, ff_gltf_guarded *out,
-                        ff_error *error)
+ff_status ff_gltf_guard(const char *data, size_t size, const char *path, ff_gltf_keys keys,
+                        ff_gltf_guarded *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
     guard g = {.path = path, .out = out, .error = error};
@@ -233,7 +233,12 @@ ff_status ff_gltf_guard(const char *data, size_t size, const char *path, ff_gltf
     if (status == FF_OK) status = ff_json_parse(g.container.json, g.container.json_size, path, &json, error);
     if (status != FF_OK) return status;
     g.json = &json;
-    status = ff_gltf_reduce(&json, &document, error);
+    ff_gltf_selection selection = {0};
+    if (!keys.all) status = ff_gltf_select(&json, keys.animation, &selection, error);
+    if (status == FF_OK)
+        status = ff_gltf_reduce(&json, selection.root ? selection.root : json.root, &document, error);
+    if (status == FF_OK && selection.root) status = ff_gltf_renumber(&selection, document, error);
+    ff_gltf_selection_free(&selection);
     if (status == FF_OK) status = find_buffers(&g, document);
     if (status == FF_OK) {
         out->json = json_dumps(document, JSON_COMPACT);

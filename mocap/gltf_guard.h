@@ -20,12 +20,30 @@ typedef struct ff_gltf_guarded {
     int buffer_count;
 } ff_gltf_guarded;
 
-ff_status ff_gltf_guard(const char *data, size_t size, const char *path, ff_gltf_guarded *out,
-                        ff_error *error);
+/* keys says of which animations (gltf.h). */
+ff_status ff_gltf_guard(const char *data, size_t size, const char *path, ff_gltf_keys keys,
+                        ff_gltf_guarded *out, ff_error *error);
 void ff_gltf_guarded_free(ff_gltf_guarded *guarded);
 
-/* The JSON document reduced to what is read (gltf_schema.c). Errors name line, column and member. */
+/* The members of root (json's own, or a selection of it) that are read (gltf_schema.c). Errors name line, column and
+ * member. */
+ff_status ff_gltf_reduce(const ff_json *json, const json_t *root, json_t **out, ff_error *error);
 
-ff_status ff_gltf_reduce(const ff_json *json, json_t **out, ff_error *error);
+/* New numbers of a list's elements: to[old], UINT32_MAX = left out. */
+typedef struct ff_gltf_numbers {
+    uint32_t *to;
+    size_t count;
+} ff_gltf_numbers;
+
+typedef struct ff_gltf_selection {
+    json_t *root;
+    ff_gltf_numbers accessors, views;
+} ff_gltf_selection;
+
+/* The document without the keys of other animations than one; its elements are the document's own. */
+ff_status ff_gltf_select(const ff_json *json, const char *animation, ff_gltf_selection *out, ff_error *error);
+/* Put the new numbers into a reduced copy of it; the old ones are kept as names, for messages. */
+ff_status ff_gltf_renumber(const ff_gltf_selection *selection, json_t *document, ff_error *error);
+void ff_gltf_selection_free(ff_gltf_selection *selection);
 
 #endif

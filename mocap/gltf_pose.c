@@ -193,7 +193,7 @@ static ff_status read_curve(const ff_gltf *gltf, const ff_gltf_channel *channel,
     for (size_t i = 1; status == FF_OK && i < out->count; ++i)
         if (out->times[i] < out->times[i - 1])
             status = ff_fail(error, FF_ERR_PARSE, "accessors[%d]: times of keys go back at key %zu",
-                             channel->input, i);
+                             gltf->accessors[channel->input].number, i);
     return status;
 }
 

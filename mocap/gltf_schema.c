@@ -212,12 +212,12 @@ static ff_status refuse_extensions(const reducer *r)
     return FF_OK;
 }
 
-ff_status ff_gltf_reduce(const ff_json *json, json_t **out, ff_error *error)
+ff_status ff_gltf_reduce(const ff_json *json, const json_t *from, json_t **out, ff_error *error)
 {
     reducer r = {json, error};
     *out = NULL;
     ff_status status = refuse_extensions(&r);
-    if (status == FF_OK) status = take_object(&r, json->root, root, out);
+    if (status == FF_OK) status = take_object(&r, from, root, out);
     if (status != FF_OK) return status;
     const char *version = json_string_value(json_object_get(json_object_get(*out, "asset"), "version"));
     if (version && strncmp(version, "2.", 2) == 0) return FF_OK;

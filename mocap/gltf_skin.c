@@ -38,8 +38,8 @@ static ff_status read_attribute(reader *r, int accessor, const char *name, int w
     if (accessor < 0) return FF_OK;
     const ff_gltf_accessor *from = &r->gltf->accessors[accessor];
     if (from->width != width || from->count != a->count)
-        return ff_fail(r->error, FF_ERR_PARSE, "accessors[%d]: %s needs %zu elements of %d numbers", accessor,
-                       name, a->count, width);
+        return ff_fail(r->error, FF_ERR_PARSE, "accessors[%d]: %s needs %zu elements of %d numbers",
+                       from->number, name, a->count, width);
     return ff_gltf_read(r->gltf, accessor, out, r->error);
 }
 
@@ -57,7 +57,7 @@ static ff_status read_primitive(reader *r, const ff_gltf_primitive *p, attribute
     const ff_gltf_accessor *indices = &r->gltf->accessors[p->indices];
     if (indices->width != 1 || indices->at.component == FF_GLTF_F32 ||
         indices->count > 3 * (size_t)MOST_TRIANGLES)
-        return ff_fail(r->error, FF_ERR_PARSE, "accessors[%d]: no list of indices", p->indices);
+        return ff_fail(r->error, FF_ERR_PARSE, "accessors[%d]: no list of indices", indices->number);
     return ff_gltf_read(r->gltf, p->indices, &a->indices, r->error);
 }
 

@@ -78,6 +78,12 @@ void name(char *to, const std::string &from)
     to[length] = '\0';
 }
 
+// The guard leaves an element's number in the file as its name when it has moved.
+int number_of(const std::string &name, int index)
+{
+    return name.empty() ? index : std::atoi(name.c_str());
+}
+
 void numbers(double *to, const std::vector<double> &from, std::initializer_list<double> otherwise)
 {
     if (from.size() == otherwise.size()) {
@@ -127,7 +133,8 @@ void take_buffers(const tinygltf::Model &m, ff_gltf *out)
     out->view_count = size_of(m.bufferViews);
     for (int i = 0; i < out->view_count; ++i) {
         const tinygltf::BufferView &from = m.bufferViews[static_cast<size_t>(i)];
-        out->views[i] = {from.buffer, from.byteOffset, from.byteLength, from.byteStride};
+        out->views[i] = {from.buffer, from.byteOffset, from.byteLength, from.byteStride,
+                         number_of(from.name, i)};
     }
 }
 
@@ -142,6 +149,7 @@ void take_accessors(const tinygltf::Model &m, ff_gltf *out)
         to.width = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(from.type));
         to.count = from.count;
         to.normalised = from.normalized;
+        to.number = number_of(from.name, i);
         if (!from.sparse.isSparse) continue;
         to.sparse_count = static_cast<size_t>(from.sparse.count);
         to.sparse_indices = {from.sparse.indices.bufferView,

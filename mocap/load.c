@@ -188,7 +188,7 @@ static ff_status hash_buffers(const char *path, uint64_t *hash, ff_error *error)
     ff_gltf gltf;
     ff_status status = ff_file_map(path, &file, error);
     if (status != FF_OK) return status;
-    if (ff_gltf_open(file.data, file.size, path, &gltf, NULL) == FF_OK) {
+    if (ff_gltf_open(file.data, file.size, path, (ff_gltf_keys){.all = true}, &gltf, NULL) == FF_OK) {
         for (int i = 0; i < gltf.buffer_count; ++i)
             *hash = XXH64(gltf.buffers[i].data, gltf.buffers[i].size, *hash);
         ff_gltf_close(&gltf);

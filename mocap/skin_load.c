@@ -105,7 +105,7 @@ ff_status ff_skin_load(const char *path, const ff_load_options *options, ff_skin
     ff_gltf gltf;
     ff_status status = ff_file_map(path, &file, error);
     if (status != FF_OK) return status;
-    status = ff_gltf_open(file.data, file.size, path, &gltf, error);
+    status = ff_gltf_open(file.data, file.size, path, (ff_gltf_keys){false, NULL}, &gltf, error);
     ff_file_unmap(&file);
     if (status != FF_OK) return status;
     status = read_skin(&gltf, options, out, error);

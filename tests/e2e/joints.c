@@ -31,7 +31,7 @@ static ff_status print_file(const ff_file *file, const char *path, ff_error *err
 {
     ff_load_options options = ff_load_options_default();
     ff_gltf gltf;
-    ff_status status = ff_gltf_open(file->data, file->size, path, &gltf, error);
+    ff_status status = ff_gltf_open(file->data, file->size, path, (ff_gltf_keys){.all = true}, &gltf, error);
     int count = status == FF_OK ? gltf.animation_count : 0;
     if (status == FF_OK) ff_gltf_close(&gltf);
     for (int i = 0; i < count && status == FF_OK; ++i) {
