@@ -222,6 +222,7 @@ static void project(const ff_blend_space *space, ff_vec3 p, ff_blend *out)
 
 /* Of the turn rate asked for: with less of it one would go on, but not where one wants to. */
 #define LEAST_TURN 0.15
+#define LEAST_ASIDE 0.75 /* of the side-stepping: or one would step aside for ever and not turn */
 
 static bool locate(const ff_blend_space *space, ff_vec3 p, ff_blend *out)
 {
@@ -279,9 +280,11 @@ ff_rates ff_blend_clamp_turn(const ff_blend_space *space, ff_rates target)
     ff_blend blend;
     if (locate(space, ff_blend_point(target), &blend)) return target;
     ff_rates going = ff_blend_clamp(space, (ff_rates){target.forward, target.left, 0.0});
-    for (double share = 1.0; share > LEAST_TURN; share *= 0.7) {
-        ff_rates both = {going.forward, going.left, share * target.turn};
-        if (locate(space, ff_blend_point(both), &blend)) return both;
+    for (double aside = 1.0; aside > LEAST_ASIDE; aside *= 0.8) {
+        for (double share = 1.0; share > LEAST_TURN; share *= 0.7) {
+            ff_rates both = {going.forward, aside * going.left, share * target.turn};
+            if (locate(space, ff_blend_point(both), &blend)) return both;
+        }
     }
     return ff_blend_clamp(space, target);
 }

@@ -100,6 +100,11 @@ ff_vec2 ff_nav_solve(ff_constraints *lines, ff_circle near, ff_circle wide, ff_v
         circle = wide;
         failed = ff_solve_nearest(lines->line, lines->count, circle, wish, &v);
     }
+    if (failed >= lines->hard && failed < lines->count && lines->hard > lines->sharp) {
+        /* Rather a step across the standing foot than into somebody. */
+        give_up(lines, lines->sharp);
+        failed = ff_solve_nearest(lines->line, lines->count, circle, wish, &v);
+    }
     for (int i = 0; i < 3 && failed < lines->hard; ++i) {
         if (yields[i] == lines->hard) continue;
         give_up(lines, yields[i]);

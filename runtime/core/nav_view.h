@@ -46,7 +46,7 @@ void ff_nav_add_agents(const ff_nav_view *view, ff_avoiding how, ff_constraints 
 
 /* The velocity nearest to wish inside near, if the hard lines leave anything there, else inside wide. If rounding leaves
  * nothing there either, the standing foot, sharp turns and the hull are given up in this order (the body will clamp), the
- * walls never. Agents that cannot all be avoided are violated evenly, weights counted. */
+ * walls never; the standing foot also where it would leave an agent unavoided. Agents that cannot all be avoided are violated evenly, weights counted. */
 ff_vec2 ff_nav_solve(ff_constraints *lines, ff_circle near, ff_circle wide, ff_vec2 wish);
 
 #endif
