@@ -31,6 +31,7 @@ typedef struct ff_clip {
     int frame_count;    /* >= 1 */
     int first_frame;    /* number the file prints before its first pose (AMC), else 0 */
     int rest_frames;    /* leading frames that are a rest pose, not motion (cgspeed BVH: 1) */
+    bool drawn;         /* a cycle that an animator made, not a capture: a knee that snaps is meant to */
     ff_quat *rotations; /* [frame_count][joint_count] local, unit */
     ff_vec3
         *positions;    /* [frame_count][track_count] m; REPLACES the offset of the joint that has the track */

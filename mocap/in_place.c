@@ -217,6 +217,7 @@ static ff_status restore(travel *t, bool strict, double *sorted, ff_vec2 *smooth
     if (times == 1) *strstr(message, ", and repeated") = '\0';
     if (strict) return ff_fail(error, FF_ERR_NO_DATA, "%s; \"in_place\": true leaves it there", message);
     ff_clip_warn(clip, "%s", message);
+    clip->drawn = true;
     smooth_speeds(t, closed, smooth);
     ff_status status = times > 1 ? repeat(clip, times, error) : FF_OK;
     if (status == FF_OK) move_roots(clip, smooth, cycle);

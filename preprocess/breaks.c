@@ -220,6 +220,7 @@ static int by_place(const void *x, const void *y)
 ff_status ff_breaks_find(const ff_clip *clip, ff_breaks *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
+    if (clip->drawn) return FF_OK;
     search s = {
         .clip = clip, .limit = MARKER_OFF + BLOW / 3.0 * clip->frame_time, .found = {0}, .error = error};
     s.at = ff_calloc((size_t)clip->frame_count * (size_t)clip->joint_count, sizeof *s.at);
