@@ -39,7 +39,7 @@ static void draw_panel(ff_picture *picture, const ff_bar_chart *chart, const ff_
             double x = left + m * width;
             ff_picture_rectangle(picture, (ff_pixel){x + 1.0, base - height},
                                  (ff_pixel){x + width - 1.0, base}, colours[m]);
-            snprintf(text, sizeof text, value < 9.995 ? "%.3g" : "%.0f", value);
+            snprintf(text, sizeof text, value < 0.9995 ? "%.2g" : value < 9.995 ? "%.3g" : "%.0f", value);
             ff_picture_text(picture, (ff_pixel){x + 0.5 * width, base - height - 5.0}, 8, FF_ALIGN_MIDDLE,
                             ink, text);
         }

@@ -109,16 +109,18 @@ static void print_row(int row, int m, const ff_trial_mean *mean)
 
 static const char *const legend[] = {
     "C        collision rate, eq 17",
-    "A        acceleration in m/s2, eq 18: raw; over one step of walking; the latter en route (from 2 s on "
-    "until 1.5 m before",
-    "         the goal) while walking; the same with those who stand in jams (low where nobody gets on: see "
-    "arrived)",
-    "deep     deepest overlap of two discs in cm, of all seeds; pairs that ever overlapped more than 1 cm",
-    "mean ... s to the goal: mean, last, last of the worst seed; of those who arrived within 90 s",
+    "A        acceleration in m/s2, eq 18: raw; over one step of walking (0.5 s)",
+    "A way    the latter en route, from 2 s on until 1.5 m before the goal, while walking",
+    "A jam    the same with those who stand in jams (low where nobody gets on: see arrived)",
+    "deep     deepest overlap of two discs in cm, of all seeds",
+    "pairs    that ever overlapped more than 1 cm",
+    "mean ... s to the goal: mean, last, last of the worst seed; of those there within 90 s",
     "skate    slide of planted feet in cm, 95th percentile",
     "joint    fastest joint between two updates, degrees/s",
-    "body     deepest overlap of the bodies' five cylinders in cm, of all seeds; pairs that ever touched",
-    "2-D ms   navigation of the whole crowd per update; us: everything, per agent and update",
+    "body     deepest overlap of the bodies' five cylinders in cm, of all seeds",
+    "touch    pairs of bodies that ever touched",
+    "2-D ms   navigation of the whole crowd per update",
+    "us       everything, per agent and update",
     "aided    the baseline with MCN's keep-right, padding and knowledge of velocities",
     "paper    FbCrowd's own C, A and ms"};
 
