@@ -46,8 +46,9 @@ void add_triangle(Mesh &mesh, std::vector<int> &origin, const uint32_t corners[3
     if (mesh.add_face(face).is_valid()) return;
     ++*torn;
     for (int c = 0; c < 3; ++c) {
-        face[static_cast<size_t>(c)] =
-            mesh.add_vertex(mesh.point(Mesh::VertexHandle(static_cast<int>(corners[c]))));
+        const Mesh::Point at =
+            mesh.point(Mesh::VertexHandle(static_cast<int>(corners[c]))); // the mesh may move
+        face[static_cast<size_t>(c)] = mesh.add_vertex(at);
         origin.push_back(static_cast<int>(corners[c]));
     }
     mesh.add_face(face);

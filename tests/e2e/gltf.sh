@@ -32,7 +32,8 @@ fi
 a_pack_with_a_skin_is_drawn_with_it() {
     echo '{"kind": "custom", "seconds": 1.5, "agents": [{"position": [0, 0], "goal": [0, 5]}]}' >"$work/one.json"
     run 0 "$crowd" run "$work/one.json" --pack "$FF_BUILD/builtin.ffpack" --out "$work/plain" --quiet &&
-        run 0 "$pack" build --skin "$work/plain/crowd.glb" --no-cache --quiet --out "$work/worn.ffpack" &&
+        run 0 "$pack" generate walk-normal idle --out "$work/clips" --quiet &&
+        run 0 "$pack" build "$work/clips" --skin "$work/plain/crowd.glb" --no-cache --quiet --out "$work/worn.ffpack" &&
         run 0 "$pack" inspect "$work/worn.ffpack" && says out "character:" &&
         run 0 "$crowd" run "$work/one.json" --pack "$work/worn.ffpack" --out "$work/worn" --quiet &&
         same_size_within "$work/plain/crowd.glb" "$work/worn/crowd.glb"
