@@ -33,7 +33,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ff_status status = ff_catalogue_add_text(&builder, (const char *)data, size, "fuzz.json",
                                              "tests/fuzz/seeds/gltf", &error);
     must(status == FF_OK || (error.message[0] && error.status == status));
-    ff_catalogue catalogue = {builder.entries.data, (int)builder.entries.count, builder.memory};
+    ff_catalogue catalogue = {
+        .entries = builder.entries.data, .count = (int)builder.entries.count, .memory = builder.memory};
     for (int i = 0; i < catalogue.count; ++i)
         check(&catalogue.entries[i]);
     ff_catalogue_free(&catalogue);
