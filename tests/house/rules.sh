@@ -76,7 +76,7 @@ the_examples_use_the_public_header_alone() {
 
 only_adapters_include_cpp_libraries() {
     for folder in $rooms; do includes "$folder"; done |
-        grep -E '<(opencv2/|tiny_gltf|ceres/|Eigen/|OpenMesh/|Recast|Detour)' | grep -vE '^[^:]*\.cpp:' >"$work/strays" || return 0
+        grep -E '<(opencv2/|tiny_gltf|ceres/|Eigen/|OpenMesh/|recastnavigation/)' | grep -vE '^[^:]*\.cpp:' >"$work/strays" || return 0
     cat "$work/strays"
     return 1
 }
@@ -144,7 +144,9 @@ the_public_header_is_plain_c_and_cpp() {
 }
 every_header_stands_alone() {
     result=0
+    # A file that says "part of NAME.c" in its first line is included there and nowhere else.
     for header in $(find mocap preprocess runtime -name '*.h'); do
+        head -1 "$header" | grep -q ' - part of [a-z_0-9]*\.c' && continue
         printf '#include "%s"\n#include "%s"\n' "$header" "$header" >"$work/alone.c"
         compiles "$work/alone.c" gcc -std=c17 || result=1
     done
