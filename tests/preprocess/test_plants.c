@@ -101,11 +101,12 @@ static void finds_every_plant_of_generated_clips(void **state)
 static void finds_every_plant_under_2_mm_of_noise(void **state)
 {
     (void)state;
-    /* One end in a hundred may be four or five frames off: slow, flat landings hardly show in 2 mm. */
+    /* The aim is 3 frames. One end in 7,500 plants (12 seeds) misses it by one: slow, flat landings hardly show in
+     * 2 mm. */
     for (int kind = 0; kind < 2; ++kind) {
         misses m = compare_all_with_truth(kind ? 0.0 : 2.0, kind ? 2.0 : 0.0);
-        FF_ASSERT_BELOW(m.beyond_3, 0.01 * m.compared);
-        FF_ASSERT_BELOW(m.worst, 6);
+        FF_ASSERT_BELOW(m.beyond_3, 0.002 * m.compared);
+        FF_ASSERT_BELOW(m.worst, 4);
     }
 }
 
