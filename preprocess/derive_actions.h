@@ -9,7 +9,8 @@
 /* What has no captured action among those of clips is derived from the set's standing and a straight walk of it: clips of
  * their own (ff_build_clip with derived set), whose actions are marked FF_ACTION_DERIVED. None when the set has no straight
  * walk. The caller frees each of *out with ff_build_clip_free, then *out. */
-ff_status ff_derive_actions(const ff_build_shared *shared, const ff_example_set *set, const ff_build_clip *clips,
-                            int count, ff_build_clip **out, int *out_count, ff_error *error);
+ff_status ff_derive_actions(const ff_build_shared *shared, const ff_example_set *set,
+                            const ff_build_clip *clips, int count, ff_build_clip **out, int *out_count,
+                            ff_error *error);
 
 #endif
