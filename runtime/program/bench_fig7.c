@@ -5,13 +5,12 @@
 #include "runtime/export/text.h"
 #include "runtime/export/trajectories.h"
 #include "runtime/program/bench.h"
+#include "runtime/program/bench_options.h"
 #include "runtime/program/bench_peer.h"
-#include "runtime/tool/command_line.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-#define PROGRAM "footfall-crowd"
 #define LARGE 100      /* people: larger circles run once, with a larger step, and are not drawn */
 #define LARGE_STEP 0.1 /* s */
 
@@ -23,10 +22,10 @@ static const ff_contender contenders[METHODS] = {{"mcn", "MCN", FF_NAVIGATION_MC
                                                  {"detour", "Detour", FF_NAVIGATION_CROWD, false}};
 
 typedef struct circle_options {
-    const char *pack, *out, *json;
-    int64_t agents, seeds, first_seed, threads;
+    ff_bench_options common;
+    int64_t agents;
     double step;
-    bool mcn_only, quiet;
+    bool mcn_only;
 } circle_options;
 
 typedef struct circle_row {
@@ -69,15 +68,16 @@ static ff_status draw(const circles *all, const circle_row *row, int method, con
                       const ff_recording *recording, ff_error *error)
 {
     char path[4096];
-    if (!all->options->out || row->agents > LARGE) return FF_OK;
-    snprintf(path, sizeof path, "%s/fig7-%u-%s.png", all->options->out, row->agents, contenders[method].key);
+    if (!all->options->common.out || row->agents > LARGE) return FF_OK;
+    snprintf(path, sizeof path, "%s/fig7-%u-%s.png", all->options->common.out, row->agents,
+             contenders[method].key);
     return ff_trajectories_write(path, scene, recording, error);
 }
 
 static ff_status draw_ours(const circles *all, const circle_row *row, int method, const ff_scene_def *def,
                            ff_error *error)
 {
-    if (!all->options->out || row->agents > LARGE) return FF_OK;
+    if (!all->options->common.out || row->agents > LARGE) return FF_OK;
     ff_scene scene;
     ff_simulation simulation;
     ff_status status = ff_trial_record(&all->set, def, &scene, &simulation, error);
@@ -101,11 +101,11 @@ static ff_status run_peer(const circles *all, const circle_row *row, int method,
 
 static ff_status run_method(const circles *all, circle_row *row, int method, ff_error *error)
 {
-    uint32_t seeds = row->agents > LARGE ? 1 : (uint32_t)all->options->seeds;
+    uint32_t seeds = row->agents > LARGE ? 1 : (uint32_t)all->options->common.seeds;
     ff_trial *trials = ff_calloc(seeds, sizeof *trials);
     if (!trials) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %u runs", seeds);
     for (uint32_t s = 0; s < seeds; ++s)
-        trials[s].def = circle_def(row, method, (uint64_t)all->options->first_seed + s);
+        trials[s].def = circle_def(row, method, (uint64_t)all->options->common.first_seed + s);
     ff_status status = FF_OK;
     if (method < OURS) {
         status = ff_trials_run(&all->set, trials, seeds, error);
@@ -152,7 +152,7 @@ static const char *const legend[] = {
 static void print_circles(const circles *all)
 {
     printf("seeds from %lld on; everyone to the other side of a circle, to stand there\n",
-           (long long)all->options->first_seed);
+           (long long)all->options->common.first_seed);
     for (size_t i = 0; i < sizeof legend / sizeof *legend; ++i)
         printf("  %s\n", legend[i]);
     printf("%6s %5s %6s  %-7s %10s %6s %6s %6s %5s %5s %9s %6s %6s %6s %6s %8s %6s\n", "agents", "step",
@@ -220,8 +220,8 @@ static json_t *circles_json(const circles *all)
                               json_pack("{s:I,s:f,s:f,s:o}", "agents", (json_int_t)row->agents, "dt",
                                         row->step, "unhindered_s", row->unhindered, "methods", methods));
     }
-    return json_pack("{s:s,s:I,s:I,s:o}", "bench", "fig7", "seeds", (json_int_t)all->options->seeds,
-                     "first_seed", (json_int_t)all->options->first_seed, "rows", rows);
+    return json_pack("{s:s,s:I,s:I,s:o}", "bench", "fig7", "seeds", (json_int_t)all->options->common.seeds,
+                     "first_seed", (json_int_t)all->options->common.first_seed, "rows", rows);
 }
 
 static ff_status write_files(const circles *all, ff_error *error)
@@ -229,11 +229,11 @@ static ff_status write_files(const circles *all, ff_error *error)
     const circle_options *options = all->options;
     char path[4096];
     ff_status status = FF_OK;
-    if (options->json) status = ff_bench_write_json(options->json, circles_json(all), error);
-    if (status != FF_OK || !options->out) return status;
-    snprintf(path, sizeof path, "%s/fig7.csv", options->out);
+    if (options->common.json) status = ff_bench_write_json(options->common.json, circles_json(all), error);
+    if (status != FF_OK || !options->common.out) return status;
+    snprintf(path, sizeof path, "%s/fig7.csv", options->common.out);
     status = write_csv(all, path, error);
-    snprintf(path, sizeof path, "%s/fig7.json", options->out);
+    snprintf(path, sizeof path, "%s/fig7.json", options->common.out);
     if (status == FF_OK) status = ff_bench_write_json(path, circles_json(all), error);
     return status;
 }
@@ -244,24 +244,23 @@ static int run_fig7(const circle_options *options)
     ff_pack *pack = NULL;
     ff_figure figure;
     circles all = {.options = options};
-    ff_status status = ff_pack_open(options->pack, &pack, &error);
+    ff_status status = ff_pack_open(options->common.pack, &pack, &error);
     if (status == FF_OK) status = ff_figure_from_pack(pack, &figure, &error);
-    if (status == FF_OK && options->out) status = ff_folder_create(options->out, &error);
-    all.set = (ff_trial_set){pack, &figure, (uint32_t)options->threads, options->quiet};
+    if (status == FF_OK && options->common.out) status = ff_folder_create(options->common.out, &error);
+    all.set = (ff_trial_set){pack, &figure, (uint32_t)options->common.threads, options->common.quiet};
     if (status == FF_OK) status = run_circles(&all, &error);
     if (status == FF_OK) {
         print_circles(&all);
         status = write_files(&all, &error);
     }
     ff_pack_close(pack);
-    return status == FF_OK ? FF_EXIT_OK : ff_command_fail(PROGRAM, &error);
+    return status == FF_OK ? FF_EXIT_OK : ff_command_fail(FF_BENCH_PROGRAM, &error);
 }
 
 int ff_bench_fig7_main(int argc, char **argv)
 {
-    circle_options given = {.seeds = 5, .first_seed = 1, .threads = 1, .step = 1.0 / 30.0};
-    ff_option options[] = {
-        {.name = "--pack", .alias = "-p", .value_name = "FILE", .help = "motion pack", .text = &given.pack},
+    circle_options given = {.common = {.seeds = 5, .first_seed = 1, .threads = 1}, .step = 1.0 / 30.0};
+    const ff_option own[] = {
         {.name = "--agents",
          .value_name = "N",
          .help = "one circle of N people (default: 17, 40, 100 and 1000)",
@@ -274,41 +273,15 @@ int ff_bench_fig7_main(int argc, char **argv)
          .number = &given.step,
          .low = 0.005,
          .high = 0.1},
-        {.name = "--seeds",
-         .value_name = "N",
-         .help = "runs of each circle (default 5; one of those of more than 100 people)",
-         .integer = &given.seeds,
-         .low = 1,
-         .high = 1000},
-        {.name = "--first-seed",
-         .value_name = "N",
-         .help = "the first of them (default 1)",
-         .integer = &given.first_seed,
-         .low = 0,
-         .high = 1e9},
         {.name = "--mcn", .help = "MCN only", .flag = &given.mcn_only},
-        {.name = "--out",
-         .alias = "-o",
-         .value_name = "FOLDER",
-         .help = "where fig7.csv, fig7.json and pictures of the paths go; made if missing",
-         .text = &given.out},
-        {.name = "--json", .value_name = "FILE", .help = "the table as JSON", .text = &given.json},
-        {.name = "--threads",
-         .value_name = "N",
-         .help = "runs at the same time (default 1; more make the times less true)",
-         .integer = &given.threads,
-         .low = 1,
-         .high = 256},
-        {.name = "--quiet", .alias = "-q", .help = "no progress", .flag = &given.quiet},
         {0}};
-    const ff_command command = {.program = PROGRAM,
-                                .name = "bench fig7",
-                                .arguments = "",
-                                .summary = "everyone to the other side of a circle",
-                                .options = options};
-    ff_operands operands;
-    int status = ff_command_parse(&command, argc, argv, &operands);
-    if (status >= 0) return status;
-    if (!given.pack) return ff_command_misuse(&command, "--pack FILE is missing");
-    return run_fig7(&given);
+    const ff_bench_command command = {
+        .name = "bench fig7",
+        .summary = "everyone to the other side of a circle",
+        .files = "where fig7.csv, fig7.json and pictures of the paths go; made if missing",
+        .seeds = "runs of each circle (default 5; one of those of more than 100 people)",
+        .threads = "runs at the same time (default 1; more make the times less true)",
+        .own = own};
+    int status = ff_bench_parse(&command, argc, argv, &given.common);
+    return status >= 0 ? status : run_fig7(&given);
 }

@@ -4,16 +4,14 @@
 #include "runtime/export/bars.h"
 #include "runtime/export/text.h"
 #include "runtime/program/bench.h"
+#include "runtime/program/bench_options.h"
 #include "runtime/program/bench_trial.h"
-#include "runtime/tool/command_line.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define PROGRAM "footfall-crowd"
-
-enum { SCENES = 3, STEPS = 2, METHODS = 5, ROWS = SCENES * STEPS, SEEDS_MOST = 1000 };
+enum { SCENES = 3, STEPS = 2, METHODS = 5, ROWS = SCENES * STEPS };
 
 static const ff_contender contenders[METHODS] = {{"mcn", "MCN", FF_NAVIGATION_MCN, false},
                                                  {"orca", "ORCA", FF_NAVIGATION_ORCA, false},
@@ -49,9 +47,8 @@ static const table_scene scenes[SCENES] = {{"x2",
 static const double steps[STEPS] = {0.1, 1.0 / 30.0};
 
 typedef struct table_options {
-    const char *pack, *out, *json, *scene;
-    int64_t seeds, first_seed, threads;
-    bool quiet;
+    ff_bench_options common;
+    const char *scene;
 } table_options;
 
 typedef struct table {
@@ -68,8 +65,8 @@ static const table_scene *scene_of(int row)
 
 static ff_status run_trials(table *t, const ff_trial_set *set, ff_error *error)
 {
-    uint32_t seeds = (uint32_t)t->options->seeds, count = (uint32_t)(t->end - t->first) * METHODS * seeds,
-             at = 0;
+    uint32_t seeds = (uint32_t)t->options->common.seeds,
+             count = (uint32_t)(t->end - t->first) * METHODS * seeds, at = 0;
     t->trials = ff_calloc(count, sizeof *t->trials);
     if (!t->trials) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %u runs", count);
     for (int row = t->first; row < t->end; ++row)
@@ -80,7 +77,7 @@ static ff_status run_trials(table *t, const ff_trial_set *set, ff_error *error)
                 def->leave = true;
                 def->seconds = 90.0;
                 def->step = steps[row % STEPS];
-                def->seed = (uint64_t)t->options->first_seed + s;
+                def->seed = (uint64_t)t->options->common.first_seed + s;
                 def->navigation = ff_contender_navigation(&contenders[m]);
             }
     ff_status status = ff_trials_run(set, t->trials, count, error);
@@ -126,8 +123,8 @@ static const char *const legend[] = {
 
 static void print_table(const table *t)
 {
-    printf("%lld seeds from %lld on, every method on the same bodies\n", (long long)t->options->seeds,
-           (long long)t->options->first_seed);
+    printf("%lld seeds from %lld on, every method on the same bodies\n", (long long)t->options->common.seeds,
+           (long long)t->options->common.first_seed);
     for (size_t i = 0; i < sizeof legend / sizeof *legend; ++i)
         printf("  %s\n", legend[i]);
     printf("%-3s %5s  %-10s %8s %6s %6s %6s %6s %6s %6s %9s %5s %5s %5s %6s %5s %6s %6s %7s %5s  %s\n", "",
@@ -191,8 +188,8 @@ static json_t *table_json(const table *t)
         json_array_append_new(list, json_pack("{s:s,s:f,s:o}", "name", scene_of(row)->name, "dt",
                                               steps[row % STEPS], "methods", methods));
     }
-    return json_pack("{s:s,s:I,s:I,s:o}", "bench", "table1", "seeds", (json_int_t)t->options->seeds,
-                     "first_seed", (json_int_t)t->options->first_seed, "scenes", list);
+    return json_pack("{s:s,s:I,s:I,s:o}", "bench", "table1", "seeds", (json_int_t)t->options->common.seeds,
+                     "first_seed", (json_int_t)t->options->common.first_seed, "scenes", list);
 }
 
 static ff_status write_picture(const table *t, const char *path, ff_error *error)
@@ -219,7 +216,7 @@ static ff_status write_picture(const table *t, const char *path, ff_error *error
         {"Last arrival", "s, mean over seeds; who has not arrived in 90 s is left out", last}};
     snprintf(subtitle, sizeof subtitle,
              "FbCrowd, Table 1: 30, 53 and 100 people, %lld seeds; lower is better everywhere",
-             (long long)t->options->seeds);
+             (long long)t->options->common.seeds);
     ff_bar_chart chart = {"Three ways to cross", subtitle, groups, methods,
                           t->end - t->first,     METHODS,  4,      panels};
     return ff_bars_write(path, &chart, error);
@@ -227,10 +224,10 @@ static ff_status write_picture(const table *t, const char *path, ff_error *error
 
 static ff_status write_files(const table *t, ff_error *error)
 {
-    const char *out = t->options->out;
+    const char *out = t->options->common.out;
     char path[4096];
     ff_status status = FF_OK;
-    if (t->options->json) status = ff_bench_write_json(t->options->json, table_json(t), error);
+    if (t->options->common.json) status = ff_bench_write_json(t->options->common.json, table_json(t), error);
     if (status != FF_OK || !out) return status;
     status = ff_folder_create(out, error);
     snprintf(path, sizeof path, "%s/table1.csv", out);
@@ -262,9 +259,9 @@ static int run_table(table *t)
     ff_error error = {0};
     ff_pack *pack = NULL;
     ff_figure figure;
-    ff_status status = ff_pack_open(options->pack, &pack, &error);
+    ff_status status = ff_pack_open(options->common.pack, &pack, &error);
     if (status == FF_OK) status = ff_figure_from_pack(pack, &figure, &error);
-    ff_trial_set set = {pack, &figure, (uint32_t)options->threads, options->quiet};
+    ff_trial_set set = {pack, &figure, (uint32_t)options->common.threads, options->common.quiet};
     if (status == FF_OK) status = run_trials(t, &set, &error);
     if (status == FF_OK) {
         print_table(t);
@@ -272,55 +269,27 @@ static int run_table(table *t)
     }
     free(t->trials);
     ff_pack_close(pack);
-    return status == FF_OK ? FF_EXIT_OK : ff_command_fail(PROGRAM, &error);
+    return status == FF_OK ? FF_EXIT_OK : ff_command_fail(FF_BENCH_PROGRAM, &error);
 }
 
 int ff_bench_table1_main(int argc, char **argv)
 {
-    table_options given = {.seeds = 5, .first_seed = 1, .threads = 1};
-    ff_option options[] = {
-        {.name = "--pack", .alias = "-p", .value_name = "FILE", .help = "motion pack", .text = &given.pack},
-        {.name = "--scene",
-         .value_name = "NAME",
-         .help = "one scene only: x2, bi or x4",
-         .text = &given.scene},
-        {.name = "--seeds",
-         .value_name = "N",
-         .help = "runs of everything, with different starting places (default 5)",
-         .integer = &given.seeds,
-         .low = 1,
-         .high = SEEDS_MOST},
-        {.name = "--first-seed",
-         .value_name = "N",
-         .help = "the first of them (default 1)",
-         .integer = &given.first_seed,
-         .low = 0,
-         .high = 1e9},
-        {.name = "--out",
-         .alias = "-o",
-         .value_name = "FOLDER",
-         .help = "where table1.csv, .json and .png go; made if missing",
-         .text = &given.out},
-        {.name = "--json", .value_name = "FILE", .help = "the table as JSON", .text = &given.json},
-        {.name = "--threads",
-         .value_name = "N",
-         .help = "runs at the same time (default 1; more make the times less true)",
-         .integer = &given.threads,
-         .low = 1,
-         .high = 256},
-        {.name = "--quiet", .alias = "-q", .help = "no progress", .flag = &given.quiet},
-        {0}};
-    const ff_command command = {.program = PROGRAM,
-                                .name = "bench table1",
-                                .arguments = "",
-                                .summary = "MCN against ORCA and SF in three crossing crowds",
-                                .options = options};
-    ff_operands operands;
-    int status = ff_command_parse(&command, argc, argv, &operands);
+    table_options given = {.common = {.seeds = 5, .first_seed = 1, .threads = 1}};
+    const ff_option own[] = {{.name = "--scene",
+                              .value_name = "NAME",
+                              .help = "one scene only: x2, bi or x4",
+                              .text = &given.scene},
+                             {0}};
+    const ff_bench_command command = {
+        .name = "bench table1",
+        .summary = "MCN against ORCA and SF in three crossing crowds",
+        .files = "where table1.csv, .json and .png go; made if missing",
+        .seeds = "runs of everything, with different starting places (default 5)",
+        .threads = "runs at the same time (default 1; more make the times less true)",
+        .own = own};
+    int status = ff_bench_parse(&command, argc, argv, &given.common);
     if (status >= 0) return status;
-    if (!given.pack) return ff_command_misuse(&command, "--pack FILE is missing");
     table t = {.options = &given};
-    if (!choose_rows(&t))
-        return ff_command_misuse(&command, "--scene is '%.40s'; it can be x2, bi or x4", given.scene);
+    if (!choose_rows(&t)) return ff_bench_misuse(&command, "--scene", given.scene, "x2, bi or x4");
     return run_table(&t);
 }
