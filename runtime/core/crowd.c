@@ -14,7 +14,6 @@
 #define PLANE_MAX 1e6      /* m: millimetres must survive in a double many times over */
 #define TOLERANCE_MIN 0.05 /* m */
 #define STILL 0.2          /* m/s: who is slower and means to stand, stands */
-#define ARRAY_ALIGN 64
 
 ff_crowd_def ff_crowd_def_default(void)
 {
@@ -96,32 +95,18 @@ static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, f
     return check_navigation_def(def, error);
 }
 
+static size_t memory_needed(const ff_crowd_def *def)
+{
+    return ff_crowd_arrays_bytes(def) + ff_grid_bytes(def->max_agents) + ff_walls_bytes(def->max_walls);
+}
+
 /* Everything that is sized by the definition. */
 static bool take_memory(ff_crowd *crowd)
 {
-    size_t n = crowd->def.max_agents;
-    ff_arena *arena = &crowd->arena;
-    crowd->free_slots = ff_arena_push(arena, n, sizeof *crowd->free_slots, ARRAY_ALIGN);
-    crowd->generation = ff_arena_push(arena, n, sizeof *crowd->generation, ARRAY_ALIGN);
-    crowd->alive = ff_arena_push(arena, n, sizeof *crowd->alive, ARRAY_ALIGN);
-    crowd->traits = ff_arena_push(arena, n, sizeof *crowd->traits, ARRAY_ALIGN);
-    crowd->minds = ff_arena_push(arena, n, sizeof *crowd->minds, ARRAY_ALIGN);
-    crowd->bodies = ff_arena_push(arena, n, sizeof *crowd->bodies, ARRAY_ALIGN);
-    crowd->velocity = ff_arena_push(arena, n, sizeof *crowd->velocity, ARRAY_ALIGN);
-    crowd->gaits = ff_arena_push(arena, n, crowd->gait_size, ARRAY_ALIGN);
-    crowd->unsorted = ff_arena_push(arena, n, sizeof *crowd->unsorted, ARRAY_ALIGN);
-    crowd->neighbours = ff_arena_push(arena, n, sizeof *crowd->neighbours, ARRAY_ALIGN);
-    crowd->neighbour_count = ff_arena_push(arena, n, sizeof *crowd->neighbour_count, ARRAY_ALIGN);
-    return crowd->neighbour_count && ff_grid_init(&crowd->grid, crowd->def.max_agents, arena) &&
-           ff_walls_init(&crowd->walls, crowd->def.max_walls, arena);
-}
-
-static size_t memory_needed(const ff_crowd *crowd)
-{
-    size_t per_agent = 4 * sizeof(uint32_t) + sizeof(ff_traits) + sizeof(ff_mind) + sizeof(ff_body) +
-                       sizeof(ff_vec2) + sizeof(ff_seen) + sizeof *crowd->neighbours + crowd->gait_size;
-    return crowd->def.max_agents * per_agent + 11 * ARRAY_ALIGN + ff_grid_bytes(crowd->def.max_agents) +
-           ff_walls_bytes(crowd->def.max_walls);
+    const ff_crowd_def *def = &crowd->def;
+    return ff_crowd_arrays_init(crowd, &crowd->arena) &&
+           ff_grid_init(&crowd->grid, def->max_agents, &crowd->arena) &&
+           ff_walls_init(&crowd->walls, def->max_walls, &crowd->arena);
 }
 
 /* Back-pedalling, if it is allowed, as far as the pack can walk backwards; the pack's own hull faces forward. */
@@ -158,11 +143,10 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     crowd->pack = pack;
     crowd->def = *def;
     if (def->navigation == FF_NAVIGATION_CROWD) crowd->def.navigation = FF_NAVIGATION_MCN;
-    crowd->gait_size = (ff_gait_size() + 7) & ~(size_t)7;
     status = make_hull(crowd, error);
     if (status == FF_OK) status = ff_blend_space_create(pack, &crowd->space, error);
     if (status == FF_OK && !def->tasks) status = ff_tasks_create(def->threads, &crowd->own_tasks, error);
-    if (status == FF_OK) status = ff_arena_create(&crowd->arena, memory_needed(crowd), error);
+    if (status == FF_OK) status = ff_arena_create(&crowd->arena, memory_needed(&crowd->def), error);
     if (status == FF_OK && !take_memory(crowd))
         status = ff_fail(error, FF_ERR_NO_MEMORY, "a crowd of %u agents", def->max_agents);
     if (status != FF_OK) {
@@ -216,8 +200,11 @@ static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
 /* Free slots are taken last in, first out, then new ones. */
 static uint32_t take_slot(ff_crowd *crowd)
 {
-    if (crowd->free_count > 0) return crowd->free_slots[--crowd->free_count];
-    return crowd->slot_count++;
+    if (crowd->free_first == 0) return crowd->slot_count++;
+    uint32_t slot = crowd->free_first - 1;
+    crowd->free_first = crowd->next_free[slot];
+    crowd->next_free[slot] = 0;
+    return slot;
 }
 
 ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent *out, ff_error *error)
@@ -245,7 +232,7 @@ ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent 
     crowd->bodies[slot] =
         (ff_body){.position = def->position, .heading = heading, .phase = ff_random_unit(&random)};
     crowd->velocity[slot] = ff_v2(0.0, 0.0);
-    ff_gait_init(crowd->space, ff_crowd_gait(crowd, slot), def->position, heading, ff_random_next(&random));
+    ff_gait_init(crowd->space, &crowd->gaits[slot], def->position, heading, ff_random_next(&random));
     *out = (ff_agent){slot, generation};
     return FF_OK;
 }
@@ -265,7 +252,8 @@ ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error
     if (status != FF_OK) return status;
     crowd->alive[agent.slot] = 0;
     --crowd->agent_count;
-    crowd->free_slots[crowd->free_count++] = agent.slot;
+    crowd->next_free[agent.slot] = crowd->free_first;
+    crowd->free_first = agent.slot + 1;
     return FF_OK;
 }
 
@@ -328,7 +316,7 @@ ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_s
     const ff_body *body = &crowd->bodies[agent.slot];
     const ff_mind *mind = &crowd->minds[agent.slot];
     const ff_traits *traits = &crowd->traits[agent.slot];
-    const ff_gait *gait = ff_crowd_gait(crowd, agent.slot);
+    const ff_gait *gait = &crowd->gaits[agent.slot];
     bool still = ff_length2(crowd->velocity[agent.slot]) <= STILL;
     bool near = ff_length2(ff_sub2(traits->goal, body->position)) <= traits->goal_tolerance;
     *out =
@@ -351,34 +339,6 @@ ff_status ff_crowd_agent_pose(const ff_crowd *crowd, ff_agent agent, ff_vec3 *hi
     if (status != FF_OK) return status;
     if (!hips || !rotations) return ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the pose");
     const ff_body *body = &crowd->bodies[agent.slot];
-    ff_gait_pose(crowd->space, ff_crowd_gait(crowd, agent.slot), body->position, body->heading, hips,
-                 rotations);
+    ff_gait_pose(crowd->space, &crowd->gaits[agent.slot], body->position, body->heading, hips, rotations);
     return FF_OK;
-}
-
-/* ------------------------------------------------------------------------------------------------- hash */
-
-static uint64_t fnv(uint64_t hash, const void *data, size_t size)
-{
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ byte[i]) * 0x100000001b3u;
-    return hash;
-}
-
-uint64_t ff_crowd_state_hash(const ff_crowd *crowd)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    hash = fnv(hash, &crowd->steps, sizeof crowd->steps);
-    hash = fnv(hash, crowd->free_slots, crowd->free_count * sizeof *crowd->free_slots);
-    for (uint32_t slot = 0; slot < crowd->slot_count; ++slot) {
-        hash = fnv(hash, &crowd->generation[slot], sizeof crowd->generation[slot]);
-        if (!crowd->alive[slot]) continue;
-        hash = fnv(hash, &crowd->traits[slot], sizeof crowd->traits[slot]);
-        hash = fnv(hash, &crowd->minds[slot], sizeof crowd->minds[slot]);
-        hash = fnv(hash, &crowd->bodies[slot], sizeof crowd->bodies[slot]);
-        hash = fnv(hash, &crowd->velocity[slot], sizeof crowd->velocity[slot]);
-        hash = fnv(hash, ff_crowd_gait(crowd, slot), ff_gait_size());
-    }
-    return hash;
 }

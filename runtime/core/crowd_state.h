@@ -9,7 +9,9 @@
 
 #include "runtime/core/base/tasks.h"
 #include "runtime/core/body.h"
+#include "runtime/core/crowd_arrays.h"
 #include "runtime/core/nav.h"
+#include "runtime/core/synth_state.h"
 
 struct ff_crowd {
     const ff_pack *pack;
@@ -20,33 +22,28 @@ struct ff_crowd {
     ff_hull hull;
     ff_walls walls;
     ff_grid grid;
-    size_t gait_size;
     ff_crowd_timings timings;
 
     uint64_t steps;
     uint32_t agent_count;
     uint32_t slot_count; /* slots ever used; the others are untouched */
-    uint32_t free_count;
-    uint32_t *free_slots;
+    uint32_t free_first; /* slot + 1 of the free slot that is taken next; 0 = none, a new one is */
+    uint32_t unused;
 
-    /* per slot */
+    /* Arrays of max_agents elements: each has a row in crowd_arrays.c. Per slot: */
     uint32_t *generation;
     uint32_t *alive;
+    uint32_t *next_free; /* as free_first */
     ff_traits *traits;
     ff_mind *minds;
     ff_body *bodies;
     ff_vec2 *velocity; /* m/s, of the root over the last step */
-    unsigned char *gaits;
+    ff_gait *gaits;
 
     /* per agent of this step, in the grid's order */
     ff_seen *unsorted; /* in slot order */
     ff_neighbour (*neighbours)[FF_NEIGHBOURS_MAX];
     uint32_t *neighbour_count;
 };
-
-static inline ff_gait *ff_crowd_gait(const ff_crowd *crowd, uint32_t slot)
-{
-    return (ff_gait *)(void *)(crowd->gaits + slot * crowd->gait_size);
-}
 
 #endif

@@ -2,7 +2,6 @@
  * agent's records only (algorithms E). */
 #define _POSIX_C_SOURCE 199309L
 #include "runtime/core/crowd_state.h"
-#include "runtime/core/synth_state.h"
 
 #include <time.h>
 
@@ -96,7 +95,7 @@ static void navigate(ff_crowd *crowd, uint32_t index)
         world.padding = def->baseline.padding;
     }
     ff_nav_body body = {.heading = crowd->bodies[slot].heading};
-    body.stance.foot = ff_gait_stance(ff_crowd_gait(crowd, slot), &body.stance.ball, &body.stance.heading);
+    body.stance.foot = ff_gait_stance(&crowd->gaits[slot], &body.stance.ball, &body.stance.heading);
     ff_nav_step(&world, index, crowd->neighbours[index], crowd->neighbour_count[index], &crowd->traits[slot],
                 &body, &crowd->minds[slot]);
 }
@@ -126,7 +125,7 @@ static void move(ff_crowd *crowd, uint32_t index)
     ff_body_limits limits = {
         clamp_to_examples, crowd->space, walls, 0, radius, crowd->def.mcn.back_pedal || mind->standing};
     limits.wall_count = ff_walls_near(&crowd->walls, before, radius + 1.0, walls);
-    ff_gait *gait = ff_crowd_gait(crowd, slot);
+    ff_gait *gait = &crowd->gaits[slot];
     body->phase = step_phase(gait);
     ff_rates mean = ff_body_step(body, mind->command, mind->facing, dt, &limits);
     crowd->velocity[slot] = ff_scale2(ff_sub2(body->position, before), 1.0 / dt);
