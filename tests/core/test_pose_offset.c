@@ -1,0 +1,139 @@
+/* The difference of two motions at a switch: all of it at first, continuous in place and speed, gone at the end. */
+#include "runtime/core/pose_offset.h"
+#include "tests/check.h"
+
+#define H (1.0 / 240.0)
+
+/* A motion with made-up curves, which are known at any time. */
+static ff_pose_targets motion(double which, double time)
+{
+    ff_pose_targets pose;
+    pose.hips =
+        ff_v3(0.05 * which * ff_sin(2.0 * time + which), 0.02 * which, 0.9 + 0.02 * ff_sin(time * which));
+    for (int j = 0; j < FF_POSE_OFFSET_JOINTS; ++j) {
+        ff_vec3 axis = ff_unit3(ff_v3(ff_sin(j + which), ff_cos(2.0 * j), 1.0));
+        pose.turn[j] = ff_quat_axis(axis, 0.4 * ff_sin(3.0 * time + j * which));
+    }
+    for (int f = 0; f < 2; ++f)
+        pose.foot[f] = (ff_pose_foot){0.3 * ff_sin(which * time + f), 0.1 - 0.2 * f, 0.04 * which,
+                                      3.1 - 0.1 * which * ff_cos(time), 0.2 * which * time};
+    return pose;
+}
+
+static ff_pose_targets shown(const ff_pose_offset *offset, double time)
+{
+    ff_pose_targets pose = motion(2.0, time);
+    ff_pose_offset_apply(offset, &pose);
+    return pose;
+}
+
+/* Largest difference of two poses: m or rad. */
+static double apart(const ff_pose_targets *p, const ff_pose_targets *q)
+{
+    double most = ff_length3(ff_sub3(p->hips, q->hips));
+    for (int j = 0; j < FF_POSE_OFFSET_JOINTS; ++j)
+        most = ff_max(most, ff_quat_angle(ff_quat_mul(p->turn[j], ff_quat_conj(q->turn[j]))));
+    for (int f = 0; f < 2; ++f) {
+        const ff_pose_foot *a = &p->foot[f], *b = &q->foot[f];
+        most = ff_max(most, fabs(a->forward - b->forward));
+        most = ff_max(most, fabs(a->left - b->left));
+        most = ff_max(most, fabs(a->height - b->height));
+        most = ff_max(most, fabs(ff_wrap(a->yaw - b->yaw)));
+        most = ff_max(most, fabs(ff_wrap(a->pitch - b->pitch)));
+    }
+    return most;
+}
+
+static ff_pose_offset switched(void)
+{
+    ff_pose_targets from = motion(1.0, 0.0), from_later = motion(1.0, H);
+    ff_pose_targets to = motion(2.0, 0.0), to_later = motion(2.0, H);
+    ff_pose_offset offset;
+    ff_pose_offset_begin(&offset, &from, &from_later, &to, &to_later, H);
+    return offset;
+}
+
+static void at_the_switch_the_old_pose_is_shown(void **state)
+{
+    (void)state;
+    ff_pose_offset offset = switched();
+    ff_pose_targets old = motion(1.0, 0.0), now = shown(&offset, 0.0);
+    FF_ASSERT_BELOW(apart(&old, &now), 1e-6);
+}
+
+static void just_after_it_the_pose_goes_on_at_the_old_speed(void **state)
+{
+    (void)state;
+    for (int i = 1; i <= 4; ++i) {
+        ff_pose_offset offset = switched();
+        double t = 0.25 * H * i;
+        ff_pose_offset_advance(&offset, t);
+        ff_pose_targets old = motion(1.0, t), now = shown(&offset, t);
+        /* What is left over is of second order: half an acceleration of at most 250 per s2, times t squared. */
+        FF_ASSERT_BELOW(apart(&old, &now), 125.0 * t * t + 250.0 * H * t + 1e-6);
+        ff_pose_targets still = motion(1.0, 0.0);
+        if (i == 4) assert_true(apart(&old, &now) < 0.2 * apart(&old, &still));
+    }
+}
+
+static void one_number_follows_the_closed_form(void **state)
+{
+    (void)state;
+    ff_pose_targets from = motion(1.0, 0.0), from_later = from, to = from, to_later = from;
+    from.hips.x += 0.08;
+    from_later.hips.x += 0.08 + 0.6 * H;
+    ff_pose_offset offset;
+    ff_pose_offset_begin(&offset, &from, &from_later, &to, &to_later, H);
+    const double T = FF_POSE_OFFSET_TIME;
+    for (int i = 0; i < 30; ++i) {
+        double t = i * 0.01, s = t / T;
+        double want = 0.08 * (2 * s * s * s - 3 * s * s + 1) + 0.6 * T * (s * s * s - 2 * s * s + s);
+        FF_ASSERT_NEAR(ff_pose_offset_hips(&offset).x, want, 1e-7);
+        ff_pose_offset_advance(&offset, 0.01);
+    }
+}
+
+static void it_ends_in_the_new_motion_without_a_jump(void **state)
+{
+    (void)state;
+    ff_pose_offset offset = switched();
+    double last = 1e9, t = 0.0;
+    for (int i = 0; i < 3000; ++i, t += 1e-4) {
+        ff_pose_targets now = shown(&offset, t), new = motion(2.0, t);
+        double off = apart(&now, &new);
+        if (t > 0.29) FF_ASSERT_BELOW(off, last + 1e-6);
+        last = off;
+        ff_pose_offset_advance(&offset, 1e-4);
+    }
+    FF_ASSERT_BELOW(last, 1e-5);
+    ff_pose_offset_advance(&offset, 1e-3);
+    static const ff_pose_offset nothing;
+    assert_false(ff_pose_offset_active(&offset));
+    assert_memory_equal(&offset, &nothing, sizeof nothing);
+}
+
+static void a_second_switch_in_between_is_as_smooth(void **state)
+{
+    (void)state;
+    ff_pose_offset offset = switched(), later = offset;
+    ff_pose_offset_advance(&offset, 0.1);
+    ff_pose_offset_advance(&later, 0.1 + H);
+    ff_pose_targets old = shown(&offset, 0.1), old_later = shown(&later, 0.1 + H);
+    ff_pose_targets to = motion(3.0, 0.1), to_later = motion(3.0, 0.1 + H);
+    ff_pose_offset_begin(&offset, &old, &old_later, &to, &to_later, H);
+    ff_pose_offset_apply(&offset, &to);
+    FF_ASSERT_BELOW(apart(&to, &old), 1e-6);
+    ff_pose_offset_advance(&offset, H);
+    ff_pose_offset_apply(&offset, &to_later);
+    FF_ASSERT_BELOW(apart(&to_later, &old_later), 2e-3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(at_the_switch_the_old_pose_is_shown),
+                                       cmocka_unit_test(just_after_it_the_pose_goes_on_at_the_old_speed),
+                                       cmocka_unit_test(one_number_follows_the_closed_form),
+                                       cmocka_unit_test(it_ends_in_the_new_motion_without_a_jump),
+                                       cmocka_unit_test(a_second_switch_in_between_is_as_smooth)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
