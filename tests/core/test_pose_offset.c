@@ -10,7 +10,7 @@ static ff_pose_targets motion(double which, double time)
     ff_pose_targets pose;
     pose.hips =
         ff_v3(0.05 * which * ff_sin(2.0 * time + which), 0.02 * which, 0.9 + 0.02 * ff_sin(time * which));
-    for (int j = 0; j < FF_POSE_OFFSET_JOINTS; ++j) {
+    for (int j = 0; j < FF_JOINT_COUNT; ++j) {
         ff_vec3 axis = ff_unit3(ff_v3(ff_sin(j + which), ff_cos(2.0 * j), 1.0));
         pose.turn[j] = ff_quat_axis(axis, 0.4 * ff_sin(3.0 * time + j * which));
     }
@@ -31,7 +31,7 @@ static ff_pose_targets shown(const ff_pose_offset *offset, double time)
 static double apart(const ff_pose_targets *p, const ff_pose_targets *q)
 {
     double most = ff_length3(ff_sub3(p->hips, q->hips));
-    for (int j = 0; j < FF_POSE_OFFSET_JOINTS; ++j)
+    for (int j = 0; j < FF_JOINT_COUNT; ++j)
         most = ff_max(most, ff_quat_angle(ff_quat_mul(p->turn[j], ff_quat_conj(q->turn[j]))));
     for (int f = 0; f < 2; ++f) {
         const ff_pose_foot *a = &p->foot[f], *b = &q->foot[f];
@@ -44,12 +44,19 @@ static double apart(const ff_pose_targets *p, const ff_pose_targets *q)
     return most;
 }
 
+static void begin(ff_pose_offset *offset, const ff_pose_targets *old, const ff_pose_targets *old_later,
+                  const ff_pose_targets *new, const ff_pose_targets *new_later)
+{
+    ff_pose_switch change = {old, old_later, new, new_later, H, {1.0, 1.0}};
+    ff_pose_offset_begin(offset, &change);
+}
+
 static ff_pose_offset switched(void)
 {
     ff_pose_targets from = motion(1.0, 0.0), from_later = motion(1.0, H);
     ff_pose_targets to = motion(2.0, 0.0), to_later = motion(2.0, H);
     ff_pose_offset offset;
-    ff_pose_offset_begin(&offset, &from, &from_later, &to, &to_later, H);
+    begin(&offset, &from, &from_later, &to, &to_later);
     return offset;
 }
 
@@ -83,7 +90,7 @@ static void one_number_follows_the_closed_form(void **state)
     from.hips.x += 0.08;
     from_later.hips.x += 0.08 + 0.6 * H;
     ff_pose_offset offset;
-    ff_pose_offset_begin(&offset, &from, &from_later, &to, &to_later, H);
+    begin(&offset, &from, &from_later, &to, &to_later);
     const double T = FF_POSE_OFFSET_TIME;
     for (int i = 0; i < 30; ++i) {
         double t = i * 0.01, s = t / T;
@@ -120,12 +127,31 @@ static void a_second_switch_in_between_is_as_smooth(void **state)
     ff_pose_offset_advance(&later, 0.1 + H);
     ff_pose_targets old = shown(&offset, 0.1), old_later = shown(&later, 0.1 + H);
     ff_pose_targets to = motion(3.0, 0.1), to_later = motion(3.0, 0.1 + H);
-    ff_pose_offset_begin(&offset, &old, &old_later, &to, &to_later, H);
+    begin(&offset, &old, &old_later, &to, &to_later);
     ff_pose_offset_apply(&offset, &to);
     FF_ASSERT_BELOW(apart(&to, &old), 1e-6);
     ff_pose_offset_advance(&offset, H);
     ff_pose_offset_apply(&offset, &to_later);
     FF_ASSERT_BELOW(apart(&to_later, &old_later), 2e-3);
+}
+
+static void a_foot_that_lands_soon_has_lost_its_offset_by_then(void **state)
+{
+    (void)state;
+    ff_pose_targets from = motion(1.0, 0.0), from_later = motion(1.0, H);
+    ff_pose_targets to = motion(2.0, 0.0), to_later = motion(2.0, H);
+    ff_pose_switch change = {&from, &from_later, &to, &to_later, H, {0.1, 0.0}};
+    ff_pose_offset offset;
+    ff_pose_offset_begin(&offset, &change);
+    for (int i = 0; i <= 10; ++i) {
+        ff_pose_foot left = ff_pose_offset_foot(&offset, 0), right = ff_pose_offset_foot(&offset, 1);
+        double most = ff_max(fabs(left.height), fabs(left.yaw)), other = fabs(right.height);
+        assert_true(i == 0 ? most > 0.03 && other > 0.03 : i < 10 || most < 1e-6);
+        if (i >= 2) FF_ASSERT_BELOW(other, 1e-6);
+        ff_pose_offset_advance(&offset, 0.01);
+    }
+    assert_true(ff_pose_offset_active(&offset));
+    assert_true(ff_length3(ff_pose_offset_hips(&offset)) > 1e-3);
 }
 
 int main(void)
@@ -134,6 +160,7 @@ int main(void)
                                        cmocka_unit_test(just_after_it_the_pose_goes_on_at_the_old_speed),
                                        cmocka_unit_test(one_number_follows_the_closed_form),
                                        cmocka_unit_test(it_ends_in_the_new_motion_without_a_jump),
-                                       cmocka_unit_test(a_second_switch_in_between_is_as_smooth)};
+                                       cmocka_unit_test(a_second_switch_in_between_is_as_smooth),
+                                       cmocka_unit_test(a_foot_that_lands_soon_has_lost_its_offset_by_then)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
