@@ -2,11 +2,10 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
+#include "runtime/core/pack.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include <xxhash.h>
 
 /* In the order in which the sections stand in the file. */
 static const struct section_kind {
@@ -86,11 +85,6 @@ ff_status ff_pack_set_meta(ff_pack_content *content, const char *json, ff_error 
     return FF_OK;
 }
 
-static uint64_t align_up(uint64_t offset)
-{
-    return (offset + FF_PACK_ALIGN - 1) & ~(uint64_t)(FF_PACK_ALIGN - 1);
-}
-
 ff_status ff_pack_image(ff_pack_content *content, void **data, size_t *size, ff_error *error)
 {
     *data = NULL;
@@ -98,24 +92,17 @@ ff_status ff_pack_image(ff_pack_content *content, void **data, size_t *size, ff_
     if (ff_pack_add_string(content, "") == UINT32_MAX)
         return ff_fail(error, FF_ERR_NO_MEMORY, "the strings of the pack");
     ff_pack_section table[FF_PACK_SECTION_COUNT];
-    const size_t table_at = sizeof(ff_pack_header);
-    uint64_t end = table_at + sizeof table;
-    for (int k = 0; k < FF_PACK_SECTION_COUNT; ++k) {
-        uint64_t count = section_array(content, k)->count;
-        table[k] =
-            (ff_pack_section){kinds[k].tag, kinds[k].stride, count, align_up(end), count * kinds[k].stride};
-        end = table[k].offset + table[k].size;
-    }
-    uint64_t whole = align_up(end);
+    for (int k = 0; k < FF_PACK_SECTION_COUNT; ++k)
+        table[k] = (ff_pack_section){
+            .tag = kinds[k].tag, .stride = kinds[k].stride, .count = section_array(content, k)->count};
+    uint64_t whole = ff_sections_place(table, FF_PACK_SECTION_COUNT);
     unsigned char *image = aligned_alloc(FF_PACK_ALIGN, whole);
     if (!image) return ff_fail(error, FF_ERR_NO_MEMORY, "a pack of %llu bytes", (unsigned long long)whole);
     memset(image, 0, whole);
-    memcpy(image + table_at, table, sizeof table);
+    memcpy(image + sizeof(ff_pack_header), table, sizeof table);
     for (int k = 0; k < FF_PACK_SECTION_COUNT; ++k)
         if (table[k].size) memcpy(image + table[k].offset, section_array(content, k)->data, table[k].size);
-    ff_pack_header header = {FF_PACK_MAGIC, FF_PACK_VERSION, FF_PACK_SECTION_COUNT, whole, 0};
-    header.checksum = XXH64(image + table_at, whole - table_at, 0);
-    memcpy(image, &header, sizeof header);
+    ff_sections_seal(image, whole, &ff_pack_file_format, FF_PACK_SECTION_COUNT);
     *data = image;
     *size = whole;
     return FF_OK;

@@ -8,21 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "packs are used in place: little-endian only");
-
-#define MAX_SECTIONS 64u
-#define MAX_ELEMENTS 0x7fffffffu
-
-/* What a section must look like. */
-typedef struct section_kind {
-    uint32_t tag, stride;
-    uint32_t min_count;
-    int required;
-} section_kind;
-
 enum {
     STRINGS,
     META,
@@ -57,7 +42,7 @@ enum {
 };
 _Static_assert(KIND_COUNT == FF_PACK_SECTION_COUNT, "a kind of section is missing here");
 
-static const section_kind kinds[KIND_COUNT] = {
+static const ff_section_kind kinds[KIND_COUNT] = {
     [STRINGS] = {FF_SECTION_STRINGS, 1, 1, 1},
     [META] = {FF_SECTION_META, 1, 0, 0},
     [JOINTS] = {FF_SECTION_JOINTS, sizeof(ff_pack_joint), 1, 1},
@@ -89,117 +74,17 @@ static const section_kind kinds[KIND_COUNT] = {
     [TRIANGLES] = {FF_SECTION_TRIANGLES, sizeof(ff_pack_triangle), 0, 0},
 };
 
-typedef struct section_view {
-    const unsigned char *data;
-    uint64_t count;
-    int present;
-} section_view;
+const ff_section_format ff_pack_file_format = {FF_PACK_MAGIC,
+                                               FF_PACK_VERSION,
+                                               kinds,
+                                               KIND_COUNT,
+                                               "motion pack",
+                                               "FOOFPACK",
+                                               "make one with footfall-pack build",
+                                               "build the pack again",
+                                               "build or copy the pack again"};
 
-static void tag_text(uint32_t tag, char text[5])
-{
-    for (int i = 0; i < 4; ++i) {
-        unsigned char c = (unsigned char)(tag >> (8 * i));
-        text[i] = c >= 32 && c < 127 ? (char)c : '?';
-    }
-    text[4] = 0;
-}
-
-static ff_status check_header(const ff_pack *pack, ff_pack_header *header, ff_error *error)
-{
-    if (pack->size < sizeof *header)
-        return ff_fail_section(error, FF_ERR_PARSE, "header", pack->size,
-                               "the file ends after %llu bytes; a motion pack has a header of %zu bytes",
-                               (unsigned long long)pack->size, sizeof *header);
-    memcpy(header, pack->data, sizeof *header);
-    if (header->magic != FF_PACK_MAGIC)
-        return ff_fail_section(
-            error, FF_ERR_PARSE, "header", 0,
-            "this is not a motion pack (it does not begin with FOOFPACK); make one with footfall-pack build");
-    if (header->version != FF_PACK_VERSION)
-        return ff_fail_section(error, FF_ERR_UNSUPPORTED, "header", offsetof(ff_pack_header, version),
-                               "pack format version %u, this program reads version %u; build the pack again",
-                               header->version, FF_PACK_VERSION);
-    if (header->file_size != pack->size)
-        return ff_fail_section(error, FF_ERR_PARSE, "header", offsetof(ff_pack_header, file_size),
-                               "the header speaks of %llu bytes, the file has %llu: it was cut or grew; "
-                               "build or copy the pack again",
-                               (unsigned long long)header->file_size, (unsigned long long)pack->size);
-    if (header->section_count > MAX_SECTIONS ||
-        header->section_count > (pack->size - sizeof *header) / sizeof(ff_pack_section))
-        return ff_fail_section(error, FF_ERR_PARSE, "header", offsetof(ff_pack_header, section_count),
-                               "%u sections do not fit (at most %u)", header->section_count, MAX_SECTIONS);
-    uint64_t sum = XXH64(pack->data + sizeof *header, pack->size - sizeof *header, 0);
-    if (header->checksum != sum)
-        return ff_fail_section(error, FF_ERR_PARSE, "header", offsetof(ff_pack_header, checksum),
-                               "checksum %016llx, the bytes give %016llx: the file is damaged; build or copy "
-                               "the pack again",
-                               (unsigned long long)header->checksum, (unsigned long long)sum);
-    return FF_OK;
-}
-
-static int find_kind(uint32_t tag)
-{
-    for (int kind = 0; kind < KIND_COUNT; ++kind)
-        if (kinds[kind].tag == tag) return kind;
-    return -1;
-}
-
-/* One entry of the section table: at is its place in the file. */
-static ff_status check_section(const ff_pack *pack, uint64_t table_end, const ff_pack_section *section,
-                               uint64_t at, section_view *views, ff_error *error)
-{
-    char name[5];
-    tag_text(section->tag, name);
-    int kind = find_kind(section->tag);
-    if (kind < 0)
-        return ff_fail_section(error, FF_ERR_PARSE, name, at, "unknown kind of section in the table");
-    if (views[kind].present)
-        return ff_fail_section(error, FF_ERR_PARSE, name, at, "the section appears twice");
-    if (section->stride != kinds[kind].stride)
-        return ff_fail_section(error, FF_ERR_PARSE, name, at + offsetof(ff_pack_section, stride),
-                               "records of %u bytes, expected %u", section->stride, kinds[kind].stride);
-    if (section->count > MAX_ELEMENTS || section->count < kinds[kind].min_count)
-        return ff_fail_section(error, FF_ERR_RANGE, name, at + offsetof(ff_pack_section, count),
-                               "%llu records, expected %u to %u", (unsigned long long)section->count,
-                               kinds[kind].min_count, MAX_ELEMENTS);
-    if (section->size != section->count * section->stride) /* both below 2^32: no overflow */
-        return ff_fail_section(error, FF_ERR_PARSE, name, at + offsetof(ff_pack_section, size),
-                               "%llu bytes for %llu records of %u bytes", (unsigned long long)section->size,
-                               (unsigned long long)section->count, section->stride);
-    if (section->offset % FF_PACK_ALIGN != 0 || section->offset < table_end || section->offset > pack->size ||
-        section->size > pack->size - section->offset)
-        return ff_fail_section(error, FF_ERR_PARSE, name, at + offsetof(ff_pack_section, offset),
-                               "%llu bytes at %llu are not inside the file of %llu bytes on a %u-byte "
-                               "boundary after the section table",
-                               (unsigned long long)section->size, (unsigned long long)section->offset,
-                               (unsigned long long)pack->size, FF_PACK_ALIGN);
-    views[kind] = (section_view){pack->data + section->offset, section->count, 1};
-    return FF_OK;
-}
-
-static ff_status read_table(const ff_pack *pack, const ff_pack_header *header, section_view *views,
-                            ff_error *error)
-{
-    uint64_t table_end = sizeof *header + (uint64_t)header->section_count * sizeof(ff_pack_section);
-    uint64_t last_end = table_end;
-    for (uint32_t i = 0; i < header->section_count; ++i) {
-        uint64_t at = sizeof *header + (uint64_t)i * sizeof(ff_pack_section);
-        ff_pack_section section;
-        memcpy(&section, pack->data + at, sizeof section);
-        ff_status status = check_section(pack, last_end, &section, at, views, error);
-        if (status != FF_OK) return status;
-        last_end = section.offset + section.size; /* sections lie in table order, none over another */
-    }
-    for (int kind = 0; kind < KIND_COUNT; ++kind) {
-        if (views[kind].present || !kinds[kind].required) continue;
-        char name[5];
-        tag_text(kinds[kind].tag, name);
-        return ff_fail_section(error, FF_ERR_PARSE, name, sizeof *header, "this section is missing");
-    }
-    return FF_OK;
-}
-
-static void take_views(ff_pack *pack, const section_view *views)
+static void take_views(ff_pack *pack, const ff_section_view *views)
 {
     pack->strings = (const char *)views[STRINGS].data;
     pack->string_size = views[STRINGS].count;
@@ -265,11 +150,8 @@ static void take_views(ff_pack *pack, const section_view *views)
 
 static ff_status read_pack(ff_pack *pack, ff_error *error)
 {
-    ff_pack_header header;
-    section_view views[KIND_COUNT];
-    memset(views, 0, sizeof views);
-    ff_status status = check_header(pack, &header, error);
-    if (status == FF_OK) status = read_table(pack, &header, views, error);
+    ff_section_view views[KIND_COUNT];
+    ff_status status = ff_sections_read(pack->data, pack->size, &ff_pack_file_format, views, error);
     if (status != FF_OK) return status;
     take_views(pack, views);
     return ff_pack_check(pack, error);

@@ -3,7 +3,7 @@
 #define FF_PACK_H
 
 #include "runtime/core/base/maths.h"
-#include "runtime/core/pack_format.h"
+#include "runtime/core/sections.h"
 
 struct ff_pack {
     const unsigned char *data;
@@ -70,6 +70,8 @@ struct ff_pack {
     const ff_pack_successor *successors;
     uint32_t successor_count;
 };
+
+extern const ff_section_format ff_pack_file_format; /* pack.c */
 
 static inline const char *ff_pack_string(const ff_pack *pack, uint32_t name)
 {
