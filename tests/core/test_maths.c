@@ -11,7 +11,16 @@ static void sine_cosine_arctangent_and_exponential_agree_with_libm(void **state)
         FF_ASSERT_NEAR(ff_atan2(sin(x) * 3.0, cos(x) * 3.0), atan2(sin(x) * 3.0, cos(x) * 3.0), 1e-15);
         double e = i * 0.001;
         FF_ASSERT_NEAR(ff_exp(e) / exp(e), 1.0, 1e-14);
+        FF_ASSERT_NEAR(ff_exp(35.0 * e) / exp(35.0 * e), 1.0, 1e-14);
     }
+    FF_ASSERT_NEAR(ff_exp(-740.0) / exp(-740.0), 1.0, 0.05); /* of its denormal size */
+    assert_true(ff_exp(-1e300) == 0.0 && ff_exp(0.0) == 1.0 && isfinite(ff_exp(1e300)));
+    for (int quarter = -9; quarter <= 9; ++quarter) {
+        FF_ASSERT_NEAR(ff_sin(0.5 * FF_PI * quarter), sin(0.5 * FF_PI * quarter), 1e-15);
+        FF_ASSERT_NEAR(ff_cos(0.5 * FF_PI * quarter), cos(0.5 * FF_PI * quarter), 1e-15);
+        FF_ASSERT_NEAR(ff_sin(0.25 * FF_PI * quarter), sin(0.25 * FF_PI * quarter), 1e-15);
+    }
+    assert_true(isnan(ff_sin(NAN)) && isnan(ff_exp(NAN)));
 }
 
 static void heading_left_and_forward_keep_their_sign_in_plane_coordinates(void **state)
