@@ -196,7 +196,8 @@ static void walls_are_never_crossed_and_a_door_is_passed(void **state)
         ff_vec2 from = i < THROUGH ? ff_v2(-3.0 - row, column) : ff_v2(-2.0 - column, 3.0 + row - 3);
         agent[i] = add(crowd, from, ff_v2(i < THROUGH ? 6.0 - 1.5 * row : 5.0, from.b));
     }
-    for (int i = 0; i < 30 * 40; ++i) {
+    /* One in twenty of such crowds has somebody who is pushed past the door and needs a way round: 80 s at most. */
+    for (int i = 0; i < 30 * 90; ++i) {
         ff_vec2 before[ALL];
         for (int k = 0; k < ALL; ++k)
             before[k] = state_of(crowd, agent[k]).position;
