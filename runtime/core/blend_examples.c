@@ -4,6 +4,7 @@
 #include "runtime/core/blend.h"
 #include "runtime/core/pose_stream.h"
 
+#define LEAST_SECTION 0.02    /* of the cycle, of a run */
 #define IDLE_STEP_PERIOD 1.15 /* s: of steps taken where the blend is nearly idle (96 steps per minute) */
 
 static ff_vec3 vec3_of(const float v[3])
@@ -44,17 +45,20 @@ static double wrap_phase(double u)
 }
 
 /* When each ball stands still. Where an example does not tell (idle) or tells nothing a step can be made of, the
- * usual times: flat 0.07 of a cycle after contact, released 0.05 before toe-off (gait facts; study, section 2). */
+ * usual times: flat 0.07 of a cycle after contact (0.04 in a run), released 0.05 before toe-off (gait facts; study,
+ * section 2). */
 static void read_locks(const ff_pack_example *example, ff_blend_vertex *vertex)
 {
+    bool run = example->gait == FF_GAIT_RUN;
+    double usual = run ? 0.75 : 2.25, least = run ? 0.2 : 0.8, most = run ? 1.2 : 3.2;
     for (int foot = 0; foot < 2; ++foot) {
-        double contact = 2.0 * foot, start = contact + 0.5, length = 2.25;
+        double contact = 2.0 * foot, start = contact + (run ? 0.1 : 0.5), length = usual;
         if (!vertex->idle && example->lock[foot][1] >= 0.0f) {
             double from = phase_of(vertex, ff_clamp((double)example->lock[foot][0], 0.0, 1.0));
             double to = phase_of(vertex, (double)example->lock[foot][1]);
             double found = wrap_phase(to - from);
             double off = wrap_phase(from - contact + 1.0) - 1.0; /* after contact, from -1 to 3 */
-            if (found > 0.8 && found < 3.2 && off < 1.5) {
+            if (found > least && found < most && off < (run ? 0.8 : 1.5)) {
                 start = contact + off;
                 length = found;
             }
@@ -64,10 +68,26 @@ static void read_locks(const ff_pack_example *example, ff_blend_vertex *vertex)
     }
 }
 
-static void read_vertex(const ff_blend_space *space, const ff_pack_example *example, ff_blend_vertex *vertex)
+/* Fractions at which the sections of a cycle begin. A run's order is that of its own steps: the pack's keys name the same
+ * events for both gaits. False: a run whose keys are in no order to run by. */
+static bool read_keys(const ff_pack_example *example, ff_blend_vertex *vertex)
 {
+    static const int order[FF_GAIT_COUNT][FF_GAIT_KEYS] = {{0, 1, 2, 3}, {0, 3, 2, 1}};
+    bool rising = true;
+    for (int k = 0; k < FF_GAIT_KEYS; ++k) {
+        vertex->key[k] = (double)example->key[order[example->gait][k]];
+        if (k > 0) rising = rising && vertex->key[k] - vertex->key[k - 1] > LEAST_SECTION;
+    }
+    vertex->key[FF_GAIT_KEYS] = 1.0;
+    return example->gait == FF_GAIT_WALK ||
+           (!vertex->idle && rising && vertex->key[FF_GAIT_KEYS - 1] < 1.0 - LEAST_SECTION);
+}
+
+static bool read_vertex(const ff_blend_space *space, uint32_t index, ff_blend_vertex *vertex)
+{
+    const ff_pack_example *example = &space->pack->examples[index];
     const ff_pack_stream *stream = &space->pack->streams[example->stream];
-    *vertex = (ff_blend_vertex){0};
+    *vertex = (ff_blend_vertex){.example = index};
     vertex->idle = (example->flags & FF_EXAMPLE_IDLE) != 0;
     vertex->first_frame = stream->first_frame;
     vertex->frame_count = stream->frame_count;
@@ -76,10 +96,9 @@ static void read_vertex(const ff_blend_space *space, const ff_pack_example *exam
     if (!vertex->idle)
         vertex->rates =
             (ff_rates){(double)example->v_forward, (double)example->v_left, (double)example->turn_rate};
-    for (int k = 0; k < FF_GAIT_KEYS; ++k)
-        vertex->key[k] = (double)example->key[k];
-    vertex->key[FF_GAIT_KEYS] = 1.0;
-    read_locks(example, vertex);
+    bool usable = read_keys(example, vertex);
+    if (usable) read_locks(example, vertex);
+    return usable;
 }
 
 static void read_rotation(ff_quat q, int16_t out[4])
@@ -125,7 +144,7 @@ static double speed_of(ff_rates rates)
 static void read_neutral(ff_blend_space *space)
 {
     int32_t calm = space->idle >= 0 ? space->idle : 0;
-    for (uint32_t v = 0; v < space->vertex_count && space->idle < 0; ++v)
+    for (uint32_t v = 0; v < space->walk_count && space->idle < 0; ++v)
         if (speed_of(space->vertices[v].rates) < speed_of(space->vertices[calm].rates)) calm = (int32_t)v;
     const ff_blend_vertex *vertex = &space->vertices[calm];
     for (int foot = 0; foot < 2; ++foot) {
@@ -156,14 +175,15 @@ ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)
         return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory preparing %u examples", pack->example_count);
     read_body(space);
     uint32_t walking = 0;
-    for (uint32_t i = 0; i < pack->example_count; ++i) {
-        if (pack->examples[i].gait != FF_GAIT_WALK) continue;
-        ff_blend_vertex *vertex = &space->vertices[space->vertex_count];
-        read_vertex(space, &pack->examples[i], vertex);
-        space->points[space->vertex_count] = ff_blend_point(vertex->rates);
-        if (vertex->idle && space->idle < 0) space->idle = (int32_t)space->vertex_count;
-        walking += !vertex->idle;
-        ++space->vertex_count;
+    for (uint32_t gait = 0; gait < FF_GAIT_COUNT; ++gait) {
+        for (uint32_t i = 0; i < pack->example_count; ++i) {
+            ff_blend_vertex *vertex = &space->vertices[space->vertex_count];
+            if (pack->examples[i].gait != gait || !read_vertex(space, i, vertex)) continue;
+            space->points[space->vertex_count] = ff_blend_point(vertex->rates);
+            if (vertex->idle && space->idle < 0) space->idle = (int32_t)space->vertex_count;
+            if (gait == FF_GAIT_WALK) ++space->walk_count, walking += !vertex->idle;
+            ++space->vertex_count;
+        }
     }
     if (walking == 0)
         return ff_fail(

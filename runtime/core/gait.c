@@ -2,6 +2,7 @@
 #include "runtime/core/base/random.h"
 #include "runtime/core/foot_lock.h"
 #include "runtime/core/gait_hips.h"
+#include "runtime/core/gait_switch.h"
 
 #include <string.h>
 
@@ -166,12 +167,28 @@ static double stretch(const ff_foot_scene *scene, const ff_gait *gait, int foot)
 
 static bool time_to_lift(const ff_foot_scene *scene, const ff_gait *gait, int foot)
 {
-    if (!gait->foot[1 - foot].planted) return false; /* walking: one foot is always down */
+    if (!gait->foot[1 - foot].planted && gait->blend.way != FF_RUNNING)
+        return false; /* walking: one foot is always down */
     double start, length;
     ff_blend_lock(scene->space, &gait->blend, foot, &start, &length);
     double since = ff_phase_wrap(scene->phase - start);
     if (since >= length && FF_GAIT_KEYS - since > LEAST_SWING) return true;
     return stretch(scene, gait, foot) >= 1.0 && since > 0.5 && FF_GAIT_KEYS - since > LEAST_SWING;
+}
+
+/* What the last switch has left of a difference. The place of a foot that stands is its lock's alone. */
+static void add_offset(const ff_foot_scene *scene, const ff_pose_offset *offset, ff_gait_foot *state,
+                       int foot)
+{
+    if (!ff_pose_offset_active(offset)) return;
+    ff_pose_foot add = ff_pose_offset_foot(offset, foot);
+    state->now.height += add.height;
+    state->pitch += add.pitch;
+    if (state->planted) return;
+    ff_vec2 moved = ff_from_frame2(ff_fwd2(scene->heading), ff_v2(add.forward, add.left));
+    state->now.a += moved.a;
+    state->now.b += moved.b;
+    state->now.yaw += add.yaw;
 }
 
 static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
@@ -185,6 +202,7 @@ static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
         ff_foot_land(state, scene->space->body.ball_rest);
         ff_foot_hold(scene, state, foot, ff_smooth(gait->stand));
     }
+    add_offset(scene, &gait->offset, state, foot);
 }
 
 static void follow_rates(ff_gait *gait, ff_rates rates, double dt)
@@ -200,17 +218,20 @@ static void change_mode(const ff_foot_scene *scene, ff_gait *gait)
     if (gait->mode == FF_GAIT_STAND) {
         if (wants_to_step(scene, gait)) begin_stepping(scene, gait);
     } else if (speed_of(gait->rates) < STOP_SPEED && fabs(gait->rates.turn) < STOP_TURN &&
-               may_stand(scene, gait)) {
+               gait->blend.way != FF_RUNNING && may_stand(scene, gait)) {
         gait->mode = FF_GAIT_STAND;
     }
 }
 
-void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
-                  ff_rates rates, double dt)
+void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_root *root, double dt)
 {
+    ff_vec2 position = root->position;
+    double heading = root->heading;
+    ff_rates rates = root->rates;
     follow_rates(gait, rates, dt);
-    ff_blend_find(space, gait->rates, &gait->blend);
+    ff_locomotion_find(space, (ff_locomotion)gait->blend.way, gait->rates, &gait->blend);
     gait->idle_time += dt;
+    ff_pose_offset_advance(&gait->offset, dt);
 
     ff_cursor cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
     ff_foot_scene scene = scene_of(space, gait, &cursor, position, heading, rates, dt);
@@ -228,4 +249,33 @@ void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, 
     for (int foot = 0; foot < 2; ++foot)
         step_foot(&scene, gait, foot);
     ff_gait_lower_hips(space, gait, &cursor, position, heading, dt);
+}
+
+void ff_gait_want(const ff_blend_space *space, ff_gait *gait, ff_locomotion way, bool urgent)
+{
+    if (!ff_locomotion_available(space, way)) way = FF_BLENDING;
+    if (gait->wanted != way) gait->waited = 0.0;
+    gait->wanted = way;
+    gait->urgent = urgent;
+}
+
+ff_rates ff_gait_clamp(const ff_blend_space *space, const ff_gait *gait, ff_rates target)
+{
+    bool pace = gait->wanted == FF_RUNNING || gait->blend.way == FF_RUNNING;
+    if (gait->wanted != gait->blend.way && !pace)
+        target = ff_locomotion_clamp(space, (ff_locomotion)gait->wanted, target);
+    return ff_locomotion_clamp(space, (ff_locomotion)gait->blend.way, target);
+}
+
+void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
+                  ff_rates rates, double dt)
+{
+    ff_gait_root root = {position, heading, rates};
+    double before = gait->phase;
+    ff_gait_advance(space, gait, &root, dt);
+    gait->seconds[gait->blend.way] += dt;
+    gait->since_switch += dt;
+    if (gait->wanted == gait->blend.way) return;
+    gait->waited += dt;
+    ff_gait_try_switch(space, gait, &root, before);
 }

@@ -27,6 +27,10 @@ void ff_gait_hips(const ff_blend_space *space, const ff_gait *gait, const ff_cur
 {
     ff_vec3 place = ff_sample_hips(space, cursor);
     ff_quat turn = ff_sample_rotation(space, cursor, FF_JOINT_HIPS);
+    if (ff_pose_offset_active(&gait->offset)) {
+        place = ff_add3(place, ff_pose_offset_hips(&gait->offset));
+        turn = ff_pose_offset_turn(&gait->offset, FF_JOINT_HIPS, turn);
+    }
     ff_cursor idle;
     if (ff_gait_idle_cursor(space, gait, &idle)) {
         double share = ff_smooth(gait->stand);

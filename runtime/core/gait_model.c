@@ -19,6 +19,13 @@
 #define SIDE_PERIOD 0.95 /* s, less SIDE_SLOPE per m/s */
 #define SIDE_SLOPE 0.25
 #define TURN_PER_CYCLE (0.5 * FF_PI)
+#define TURN_ABOUT 0.12 /* m/s, within which the cycle is read both ways */
+/* Study, section 7: a strafe without them is an A-frame with a still trunk. */
+#define SHIFT 0.4      /* of the way from the middle to the standing foot, in a side step */
+#define SHIFT_FULL 0.3 /* m/s, from where on it is all of that */
+#define LEAN 0.05      /* rad, at LEAN_FULL */
+#define LEAN_FULL 0.6  /* m/s */
+#define LEAN_SWAY 0.03 /* rad, over the standing foot, together with the shift */
 
 static double fraction(double x)
 {
@@ -92,6 +99,30 @@ static ff_pack_gait_path sample(const ff_gait_model *model, double phase)
     return out;
 }
 
+double ff_gait_model_backward(ff_rates rates)
+{
+    return 1.0 - ff_smooth(0.5 + 0.5 * rates.forward / TURN_ABOUT);
+}
+
+/* The clip at a phase of its own, read forwards, backwards, or between the two: where a foot lifted it now lands. ahead
+ * is turned round with it. */
+static ff_pack_gait_path sample_both_ways(const ff_gait_model *model, ff_rates rates, double at)
+{
+    double back = ff_gait_model_backward(rates), stance = (double)model->gait->stance;
+    if (back <= 0.0) return sample(model, at);
+    ff_pack_gait_path q = sample(model, stance - at), p = back < 1.0 ? sample(model, at) : q;
+    float t = (float)back;
+    ff_pack_gait_path out = {.ahead = p.ahead + (-q.ahead - p.ahead) * t,
+                             .side = p.side + (q.side - p.side) * t,
+                             .lift = p.lift + (q.lift - p.lift) * t,
+                             .yaw = p.yaw + (q.yaw - p.yaw) * t,
+                             .pitch = p.pitch + (q.pitch - p.pitch) * t};
+    if (back >= 1.0) out.ahead = -q.ahead;
+    for (int i = 0; i < 3; ++i)
+        out.hips[i] = p.hips[i] + (q.hips[i] - p.hips[i]) * t;
+    return out;
+}
+
 /* Phase of the clip for a phase of a cycle whose stance is another share of it. */
 static double warp(double phase, double stance, double clip_stance)
 {
@@ -126,7 +157,6 @@ ff_model_foot ff_gait_model_foot(const ff_gait_model *model, ff_rates rates, dou
                                  double phase)
 {
     const ff_pack_gait *gait = model->gait;
-    bool back = rates.forward < 0.0;
     double side = foot ? -1.0 : 1.0, own = fraction(phase - (foot ? 0.5 : 0.0));
     double stance = ff_gait_model_stance(model, rates), clip_stance = (double)gait->stance;
     double ratio = fabs(rates.forward) / (double)gait->speed, size = ff_gait_model_size(model, rates);
@@ -137,10 +167,9 @@ ff_model_foot ff_gait_model_foot(const ff_gait_model *model, ff_rates rates, dou
         bump = s * s;
     }
     double at = warp(own, stance, clip_stance);
-    /* Backwards is the same cycle read backwards: where the foot lifted it now lands. */
-    ff_pack_gait_path clip = sample(model, back ? clip_stance - at : at);
+    ff_pack_gait_path clip = sample_both_ways(model, rates, at);
     /* Time by which the foot is ahead of its place: in stance exactly what the root takes to get there. */
-    double time = (back ? -1.0 : 1.0) * (double)clip.ahead * stance / clip_stance * period;
+    double time = (double)clip.ahead * stance / clip_stance * period;
     ff_vec2 place = foot_place(gait, rates, period, part, side);
     double turning = ff_min(1.0, fabs(rates.turn)) * (1.0 - part);
     place.b += side * ((double)clip.side * part + CLEARANCE * turning * bump);
@@ -158,14 +187,38 @@ ff_model_foot ff_gait_model_foot(const ff_gait_model *model, ff_rates rates, dou
         .swing = swing};
 }
 
+/* How much of a side step there is in the gait, 0 to 1. */
+static double sidewards(ff_rates rates)
+{
+    double ahead = fabs(rates.forward), aside = fabs(rates.left);
+    return aside / ff_max(ahead + aside, 1e-9) * ff_smooth(aside / SHIFT_FULL);
+}
+
+/* 1 in the middle of the left foot's stance to -1 in that of the right one's. */
+static double over_foot(const ff_gait_model *model, ff_rates rates, double phase)
+{
+    return ff_cos(FF_TAU * (phase - 0.5 * ff_gait_model_stance(model, rates)));
+}
+
 ff_vec3 ff_gait_model_hips(const ff_gait_model *model, ff_rates rates, double phase)
 {
     double ratio = ff_min(fabs(rates.forward) / (double)model->gait->speed, 1.5);
-    bool back = rates.forward < 0.0;
-    double at = fraction(phase);
-    ff_pack_gait_path clip = sample(model, back ? (double)model->gait->stance - at : at);
+    ff_pack_gait_path clip = sample_both_ways(model, rates, fraction(phase));
     double sway = ff_max(SWAY_LEAST, amplitude(model, FF_GAIT_LAW_SWAY, ratio));
     double bob = amplitude(model, FF_GAIT_LAW_BOB, ratio);
-    return ff_v3((double)clip.hips[0] * ff_min(1.0, ratio), (double)clip.hips[1] * sway,
-                 (double)clip.hips[2] * bob);
+    double left = (double)clip.hips[1] * sway, share = sidewards(rates);
+    if (share > 0.0) {
+        double part = ff_min(1.0, ff_gait_model_size(model, rates));
+        ff_vec2 foot = foot_place(model->gait, rates, ff_gait_model_period(model, rates), part, 1.0);
+        left = ff_lerp(left, SHIFT * foot.b * over_foot(model, rates, phase), share);
+    }
+    return ff_v3((double)clip.hips[0] * ff_min(1.0, ratio), left, (double)clip.hips[2] * bob);
+}
+
+double ff_gait_model_lean(const ff_gait_model *model, ff_rates rates, double phase)
+{
+    double share = sidewards(rates);
+    if (!(share > 0.0)) return 0.0;
+    return LEAN * ff_clamp(rates.left / LEAN_FULL, -1.0, 1.0) +
+           LEAN_SWAY * share * over_foot(model, rates, phase);
 }

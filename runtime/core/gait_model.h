@@ -40,7 +40,15 @@ double ff_gait_model_size(const ff_gait_model *model, ff_rates rates);
 ff_model_foot ff_gait_model_foot(const ff_gait_model *model, ff_rates rates, double period, int foot,
                                  double phase);
 
-/* Hips at a phase: forward and left of the root, and up from their mean height (which follows from the legs' reach). */
+/* Hips at a phase: forward and left of the root, and up from their mean height (which follows from the legs' reach). Who
+ * steps sideways has them over the standing foot. */
 ff_vec3 ff_gait_model_hips(const ff_gait_model *model, ff_rates rates, double phase);
+
+/* How far the body leans to the left (rad, at the hips): to where one side-steps, and a little over the standing foot. */
+double ff_gait_model_lean(const ff_gait_model *model, ff_rates rates, double phase);
+
+/* Share of the cycle that is read backwards, 0 to 1: all of it by who goes backwards, both readings about equally by who does
+ * neither, so that nothing jumps in between. */
+double ff_gait_model_backward(ff_rates rates);
 
 #endif

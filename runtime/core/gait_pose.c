@@ -16,6 +16,8 @@ static void sample_joints(const ff_blend_space *space, const ff_gait *gait, cons
     for (int j = FF_JOINT_SPINE; j < FF_JOINT_COUNT; ++j) {
         rotations[j] = standing && share >= 1.0 ? ff_sample_rotation(space, &idle, j)
                                                 : ff_sample_rotation(space, cursor, j);
+        if (ff_pose_offset_active(&gait->offset))
+            rotations[j] = ff_pose_offset_turn(&gait->offset, j, rotations[j]);
         if (standing && share < 1.0)
             rotations[j] = ff_quat_nlerp(rotations[j], ff_sample_rotation(space, &idle, j), share);
     }

@@ -26,10 +26,84 @@ static void add_part(ff_cursor *cursor, const ff_blend_vertex *vertex, double fr
     cursor->part[part].weight[0] = weight - cursor->part[part].weight[1];
 }
 
+/* Section keys of the semi-procedural cycle. */
+static void clip_keys(const ff_blend *clip, double key[FF_GAIT_KEYS + 1])
+{
+    key[0] = 0.0;
+    key[1] = clip->stance - 0.5;
+    key[2] = 0.5;
+    key[3] = clip->stance;
+    key[FF_GAIT_KEYS] = 1.0;
+}
+
+static double fraction_at(const double key[FF_GAIT_KEYS + 1], double phase)
+{
+    double wrapped = ff_phase_wrap(phase);
+    int section = (int)wrapped;
+    return ff_lerp(key[section], key[section + 1], wrapped - section);
+}
+
+static double phase_at(const double key[FF_GAIT_KEYS + 1], double fraction)
+{
+    int k = FF_GAIT_KEYS - 1;
+    while (k > 0 && fraction < key[k])
+        --k;
+    return ff_phase_wrap(k + (fraction - key[k]) / (key[k + 1] - key[k]));
+}
+
+double ff_vertex_fraction(const ff_blend_space *space, int32_t vertex, double phase)
+{
+    return fraction_at(space->vertices[vertex].key, phase);
+}
+
+double ff_vertex_phase(const ff_blend_space *space, int32_t vertex, double fraction)
+{
+    return phase_at(space->vertices[vertex].key, fraction);
+}
+
+double ff_clip_fraction(const ff_blend *clip, double phase)
+{
+    double key[FF_GAIT_KEYS + 1];
+    clip_keys(clip, key);
+    return fraction_at(key, phase);
+}
+
+double ff_clip_phase(const ff_blend *clip, double fraction)
+{
+    double key[FF_GAIT_KEYS + 1];
+    clip_keys(clip, key);
+    return phase_at(key, fraction);
+}
+
+/* The clip's trunk, arms and knees: those of its example at the same phase, read backwards by who goes backwards. */
+static void point_at_clip(const ff_blend_space *space, const ff_blend *clip, double phase, ff_cursor *cursor)
+{
+    const ff_blend_vertex *vertex = &space->vertices[clip->vertex[0]];
+    double at = fraction_at(vertex->key, phase), back = ff_gait_model_backward(clip->rates);
+    double turned = vertex->key[3] - at;
+    cursor->clip = clip;
+    cursor->fraction = ff_clip_fraction(clip, phase);
+    if (back < 1.0) add_part(cursor, vertex, at, 1.0 - back);
+    if (back > 0.0) add_part(cursor, vertex, turned - floor(turned), back);
+}
+
+ff_cursor ff_cursor_of_clip(const ff_blend_space *space, const ff_blend *clip, double fraction)
+{
+    ff_cursor cursor = {.clip = clip};
+    point_at_clip(space, clip, ff_clip_phase(clip, fraction), &cursor);
+    return cursor;
+}
+
 ff_cursor ff_cursor_at(const ff_blend_space *space, const ff_blend *blend, double phase, double idle_time)
 {
     ff_cursor cursor;
     cursor.count = 0;
+    cursor.clip = NULL;
+    cursor.fraction = 0.0;
+    if (blend->way == FF_SEMI_PROCEDURAL) {
+        point_at_clip(space, blend, phase, &cursor);
+        return cursor;
+    }
     double wrapped = ff_phase_wrap(phase);
     int section = (int)wrapped;
     double share = wrapped - section;
@@ -47,12 +121,20 @@ ff_cursor ff_cursor_of_vertex(const ff_blend_space *space, int32_t vertex, doubl
 {
     ff_cursor cursor;
     cursor.count = 0;
+    cursor.clip = NULL;
+    cursor.fraction = 0.0;
     add_part(&cursor, &space->vertices[vertex], fraction, 1.0);
     return cursor;
 }
 
 ff_foot_sample ff_sample_foot(const ff_blend_space *space, const ff_cursor *cursor, int foot)
 {
+    if (cursor->clip) {
+        const ff_blend *clip = cursor->clip;
+        ff_model_foot at =
+            ff_gait_model_foot(&space->model.clip, clip->rates, clip->period, foot, cursor->fraction);
+        return (ff_foot_sample){at.forward, at.left, at.height, at.yaw, at.pitch};
+    }
     ff_foot_sample sample = {0.0, 0.0, 0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < cursor->count; ++i)
         for (int k = 0; k < 2; ++k) {
@@ -69,6 +151,10 @@ ff_foot_sample ff_sample_foot(const ff_blend_space *space, const ff_cursor *curs
 
 ff_vec3 ff_sample_hips(const ff_blend_space *space, const ff_cursor *cursor)
 {
+    if (cursor->clip) {
+        ff_vec3 at = ff_gait_model_hips(&space->model.clip, cursor->clip->rates, cursor->fraction);
+        return ff_v3(at.x, at.y, at.z + cursor->clip->hips);
+    }
     ff_vec3 hips = ff_v3(0.0, 0.0, 0.0);
     for (uint32_t i = 0; i < cursor->count; ++i)
         for (int k = 0; k < 2; ++k) {
@@ -77,6 +163,21 @@ ff_vec3 ff_sample_hips(const ff_blend_space *space, const ff_cursor *cursor)
                 ff_madd3(hips, ff_v3((double)at[0], (double)at[1], (double)at[2]), cursor->part[i].weight[k]);
         }
     return hips;
+}
+
+#define LEAST_SIZE 0.15 /* of the clip's trunk and arms: some of it is left in the smallest steps */
+
+/* A joint of the semi-procedural clip: trunk and arms move as much as the steps are large, and the body leans. */
+static ff_quat clip_rotation(const ff_blend_space *space, const ff_cursor *cursor, int joint, ff_quat full)
+{
+    const ff_clip_model *model = &space->model;
+    ff_rates rates = cursor->clip->rates;
+    if (joint >= FF_JOINT_HIP_L) return full;
+    double size = ff_clamp(ff_gait_model_size(&model->clip, rates), LEAST_SIZE, 1.0);
+    ff_quat turn = ff_quat_nlerp(model->mean[joint], full, size);
+    if (joint != FF_JOINT_HIPS) return turn;
+    double lean = ff_gait_model_lean(&model->clip, rates, cursor->fraction);
+    return ff_quat_mul(ff_quat_axis(ff_v3(0.0, 0.0, 1.0), -lean), turn);
 }
 
 /* Weighted mean on the hemisphere of the first part, normalised: for examples within 60 degrees the same as chains of
@@ -95,11 +196,17 @@ ff_quat ff_sample_rotation(const ff_blend_space *space, const ff_cursor *cursor,
             sum.z += weight * q[2];
             sum.w += weight * q[3];
         }
-    return ff_quat_unit(sum);
+    sum = ff_quat_unit(sum);
+    return cursor->clip ? clip_rotation(space, cursor, joint, sum) : sum;
 }
 
 static double section_duration(const ff_blend_space *space, const ff_blend *blend, int section)
 {
+    if (blend->way == FF_SEMI_PROCEDURAL) {
+        double key[FF_GAIT_KEYS + 1];
+        clip_keys(blend, key);
+        return blend->period * (key[section + 1] - key[section]);
+    }
     double duration = 0.0;
     for (int i = 0; i < FF_BLEND_MAX; ++i) {
         if (blend->vertex[i] < 0) continue;

@@ -5,12 +5,13 @@
 #include "runtime/core/synth_state.h"
 
 /* A foot in the root frame. */
-typedef struct ff_foot_sample {
-    double forward, left, height, yaw, pitch;
-} ff_foot_sample;
+typedef ff_pose_foot ff_foot_sample;
 
 /* Where a blend's parts are in their streams: the work shared by everything sampled at one phase. */
 typedef struct ff_cursor {
+    const ff_blend
+        *clip; /* the semi-procedural clip at these rates, or NULL for examples; must outlive the cursor */
+    double fraction; /* of its cycle */
     struct {
         uint32_t frame[2]; /* of the examples' frames */
         double weight[2];
@@ -20,6 +21,8 @@ typedef struct ff_cursor {
 
 /* idle_time: s; the idle example, if it takes part, runs on this clock instead of the phase. */
 ff_cursor ff_cursor_at(const ff_blend_space *space, const ff_blend *blend, double phase, double idle_time);
+/* The semi-procedural clip (clip->way FF_SEMI_PROCEDURAL) at a fraction of its cycle. */
+ff_cursor ff_cursor_of_clip(const ff_blend_space *space, const ff_blend *clip, double fraction);
 /* One example alone at a fraction of its cycle. */
 ff_cursor ff_cursor_of_vertex(const ff_blend_space *space, int32_t vertex, double fraction);
 
@@ -40,5 +43,11 @@ void ff_blend_lock(const ff_blend_space *space, const ff_blend *blend, int foot,
 
 /* Into [0, 4). */
 double ff_phase_wrap(double phase);
+
+/* Fractions of the cycle of an example, and of the semi-procedural clip, at a phase; and the phases at a fraction. */
+double ff_vertex_fraction(const ff_blend_space *space, int32_t vertex, double phase);
+double ff_vertex_phase(const ff_blend_space *space, int32_t vertex, double fraction);
+double ff_clip_fraction(const ff_blend *clip, double phase);
+double ff_clip_phase(const ff_blend *clip, double fraction);
 
 #endif

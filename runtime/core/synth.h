@@ -17,9 +17,18 @@ typedef struct ff_rates {
 
 #define FF_BLEND_MAX 4 /* examples blended at once */
 
+/* What a body moves by. Walking examples, the semi-procedural clip and running examples are never mixed: one passes from
+ * one to another within a step (gait_switch.h). */
+typedef enum ff_locomotion {
+    FF_BLENDING,        /* walking examples, blended */
+    FF_SEMI_PROCEDURAL, /* the semi-procedural clip at exactly the rates asked for */
+    FF_RUNNING,         /* running examples, blended */
+    FF_LOCOMOTION_COUNT
+} ff_locomotion;
+
 typedef struct ff_blend_space ff_blend_space;
 
-/* Prepare the pack's walking examples for blending. The pack must outlive the space. Fails with FF_ERR_NO_DATA when
+/* Prepare the pack's examples for blending. The pack must outlive the space. Fails with FF_ERR_NO_DATA when
  * the pack has no example to walk with. */
 ff_status ff_blend_space_create(const ff_pack *pack, ff_blend_space **out, ff_error *error);
 void ff_blend_space_destroy(ff_blend_space *space);
@@ -31,6 +40,13 @@ ff_rates ff_blend_clamp(const ff_blend_space *space, ff_rates target);
  * hardly at all). The nearest rates would have somebody who is asked for a quick turn stop for it. */
 ff_rates ff_blend_clamp_turn(const ff_blend_space *space, ff_rates target);
 
+/* Whether the pack has what this motion needs; FF_BLENDING always is. */
+bool ff_locomotion_available(const ff_blend_space *space, ff_locomotion way);
+
+/* The rates nearest to target that a body can move at by this motion: for blending ff_blend_clamp_turn; for the others see
+ * locomotion.c. Allocates nothing; thread-safe. */
+ff_rates ff_locomotion_clamp(const ff_blend_space *space, ff_locomotion way, ff_rates target);
+
 /* Everything synthesis remembers of one agent: plain data, no pointers, hashed as bytes (so no padding may be
  * left undefined: ff_gait_init zeroes it). */
 typedef struct ff_gait ff_gait;
@@ -39,6 +55,13 @@ size_t ff_gait_size(void); /* for the crowd's arrays; sizeof(ff_gait) is in synt
 /* Standing at position/heading with style and phase drawn from variation (any 64 bits). */
 void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
                   uint64_t variation);
+
+/* How the agent shall move from the next step on that allows the change. urgent: somebody is about to be run into. What is not
+ * available is not asked for. */
+void ff_gait_want(const ff_blend_space *space, ff_gait *gait, ff_locomotion way, bool urgent);
+
+/* ff_locomotion_clamp for how it moves now, and, if it shall move otherwise, for both. */
+ff_rates ff_gait_clamp(const ff_blend_space *space, const ff_gait *gait, ff_rates target);
 
 /* The root has just moved over dt to position/heading with these rates (already clamped): advance phase, weights
  * and foot locks. Pure function of its arguments; allocates nothing. */

@@ -3,6 +3,7 @@
 #define FF_SYNTH_STATE_H
 
 #include "runtime/core/blend.h"
+#include "runtime/core/pose_offset.h"
 
 enum { FF_GAIT_STAND, FF_GAIT_STEP }; /* ff_gait.mode */
 
@@ -42,7 +43,14 @@ struct ff_gait {
     double hips_drop;  /* m, below the blended height, so that both legs reach */
     double hips_speed; /* m/s, of hips_drop */
     ff_gait_style style;
+    ff_pose_offset offset; /* what is left of the last switch */
+    double since_switch;   /* s */
+    double waited;         /* s, for the moment to switch to what is wanted */
+    double seconds[FF_LOCOMOTION_COUNT];
     uint32_t mode, first_foot; /* first_foot: which one steps first when nothing else decides */
+    uint32_t wanted;           /* FF_BLENDING, ...; what is played is blend.way */
+    uint32_t urgent;           /* 1: to switch to it is pressing */
+    uint32_t switches, urgent_switches;
 };
 
 #endif

@@ -19,10 +19,14 @@ static inline bool ff_pack_use(const ff_pack *pack, int steps, uint64_t seed)
     ff_rates rates = {0.0, 0.0, 0.0};
     ff_gait_init(space, &gait, position, heading, seed);
     for (int i = 0; i < steps; ++i) {
+        if (i % 3 == 2)
+            ff_gait_want(space, &gait, (ff_locomotion)((seed + (uint64_t)i / 3) % FF_LOCOMOTION_COUNT),
+                         i % 2 == 1);
         if (i % 8 == 0)
-            rates = ff_blend_clamp(space, (ff_rates){ff_random_range(&random, -1.0, 2.0),
-                                                     ff_random_range(&random, -0.7, 0.7),
-                                                     ff_random_range(&random, -2.0, 2.0)});
+            rates = ff_gait_clamp(space, &gait,
+                                  (ff_rates){ff_random_range(&random, -1.0, 3.0),
+                                             ff_random_range(&random, -0.7, 0.7),
+                                             ff_random_range(&random, -2.0, 2.0)});
         position = ff_madd2(position, ff_from_frame2(ff_fwd2(heading), ff_v2(rates.forward, rates.left)),
                             1.0 / 30.0);
         heading += rates.turn / 30.0;
