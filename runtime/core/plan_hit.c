@@ -1,0 +1,91 @@
+#include "runtime/core/plan_hit.h"
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+ff_limits ff_limits_of(float margin)
+{
+    ff_limits limits;
+    for (int i = 0; i < FF_COLLIDER_COUNT; ++i)
+        for (int k = 0; k < FF_TRACK_LANES; ++k) {
+            float near =
+                k < FF_COLLIDER_COUNT ? ff_collider_radius[i] + ff_collider_radius[k] + margin : -1.0f;
+            limits.squared[i][k] = near > 0.0f ? near * near : -1.0f;
+        }
+    return limits;
+}
+
+float ff_knot_radius(const ff_knot *knot)
+{
+    float most = ff_collider_radius[FF_COLLIDER_ROOT];
+    for (int i = 0; i < FF_COLLIDER_ROOT; ++i) {
+        float a = knot->a[i] - knot->a[FF_COLLIDER_ROOT], b = knot->b[i] - knot->b[FF_COLLIDER_ROOT];
+        float out = sqrtf(a * a + b * b) + ff_collider_radius[i];
+        most = out > most ? out : most;
+    }
+    return most;
+}
+
+/* Bit k: collider i of mine and k of theirs come nearer than their limit. */
+#ifdef __SSE2__
+static unsigned near_lanes(int i, const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
+                           float a, float b, const float *limit)
+{
+    unsigned near = 0;
+    __m128 xa0 = _mm_set1_ps(x0->a[i] - a), xb0 = _mm_set1_ps(x0->b[i] - b);
+    __m128 xa1 = _mm_set1_ps(x1->a[i] - a), xb1 = _mm_set1_ps(x1->b[i] - b);
+    const __m128 zero = _mm_setzero_ps(), one = _mm_set1_ps(1.0f), tiny = _mm_set1_ps(1e-12f);
+    for (int k = 0; k < FF_TRACK_LANES; k += 4) {
+        __m128 pa = _mm_sub_ps(_mm_loadu_ps(y0->a + k), xa0), pb = _mm_sub_ps(_mm_loadu_ps(y0->b + k), xb0);
+        __m128 da = _mm_sub_ps(_mm_sub_ps(_mm_loadu_ps(y1->a + k), xa1), pa);
+        __m128 db = _mm_sub_ps(_mm_sub_ps(_mm_loadu_ps(y1->b + k), xb1), pb);
+        __m128 dd = _mm_add_ps(_mm_mul_ps(da, da), _mm_mul_ps(db, db));
+        __m128 t = _mm_sub_ps(zero, _mm_add_ps(_mm_mul_ps(pa, da), _mm_mul_ps(pb, db)));
+        t = _mm_and_ps(_mm_div_ps(t, _mm_max_ps(dd, tiny)), _mm_cmpgt_ps(dd, tiny));
+        t = _mm_min_ps(_mm_max_ps(t, zero), one);
+        pa = _mm_add_ps(pa, _mm_mul_ps(t, da));
+        pb = _mm_add_ps(pb, _mm_mul_ps(t, db));
+        __m128 square = _mm_add_ps(_mm_mul_ps(pa, pa), _mm_mul_ps(pb, pb));
+        near |= (unsigned)_mm_movemask_ps(_mm_cmple_ps(square, _mm_loadu_ps(limit + k))) << k;
+    }
+    return near;
+}
+#else
+static unsigned near_lanes(int i, const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
+                           float a, float b, const float *limit)
+{
+    unsigned near = 0;
+    float xa0 = x0->a[i] - a, xb0 = x0->b[i] - b, xa1 = x1->a[i] - a, xb1 = x1->b[i] - b;
+    for (int k = 0; k < FF_TRACK_LANES; ++k) {
+        float pa = y0->a[k] - xa0, pb = y0->b[k] - xb0;
+        float da = (y1->a[k] - xa1) - pa, db = (y1->b[k] - xb1) - pb;
+        if (ff_nearest_pass(pa, pb, da, db) <= limit[k]) near |= 1u << k;
+    }
+    return near;
+}
+#endif
+
+/* Do they share a height at some time of the interval? Heights taken for its whole. */
+static bool share_height(int i, const ff_knot *x0, const ff_knot *x1, int k, const ff_knot *y0,
+                         const ff_knot *y1)
+{
+    float low[2][2], high[2][2];
+    ff_collider_extent((uint32_t)i, x0->y[i], &low[0][0], &high[0][0]);
+    ff_collider_extent((uint32_t)i, x1->y[i], &low[0][1], &high[0][1]);
+    ff_collider_extent((uint32_t)k, y0->y[k], &low[1][0], &high[1][0]);
+    ff_collider_extent((uint32_t)k, y1->y[k], &low[1][1], &high[1][1]);
+    return fminf(low[0][0], low[0][1]) <= fmaxf(high[1][0], high[1][1]) &&
+           fminf(low[1][0], low[1][1]) <= fmaxf(high[0][0], high[0][1]);
+}
+
+bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                  float b, const ff_limits *limits)
+{
+    for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
+        unsigned near = near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i]);
+        for (int k = 0; near; ++k, near >>= 1)
+            if ((near & 1u) && share_height(i, x0, x1, k, y0, y1)) return true;
+    }
+    return false;
+}

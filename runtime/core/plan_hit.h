@@ -1,0 +1,40 @@
+/* plan_hit.h - do colliders that move straight between two moments meet? */
+#ifndef FF_PLAN_HIT_H
+#define FF_PLAN_HIT_H
+
+#include "runtime/core/plan.h"
+
+/* Squares of how near colliders may come: [mine][theirs]; spare lanes never meet anything. */
+typedef struct ff_limits {
+    float squared[FF_COLLIDER_COUNT][FF_TRACK_LANES];
+} ff_limits;
+ff_limits ff_limits_of(float margin);
+
+/* About the root, holds all colliders with their radii. */
+float ff_knot_radius(const ff_knot *knot);
+
+/* Smallest squared length of p + t d for t in [0, 1]. */
+static inline float ff_nearest_pass(float pa, float pb, float da, float db)
+{
+    float dd = da * da + db * db, t = -(pa * da + pb * db);
+    t = dd > 1e-12f ? t / dd : 0.0f;
+    t = t < 0.0f ? 0.0f : (t > 1.0f ? 1.0f : t);
+    float a = pa + t * da, b = pb + t * db;
+    return a * a + b * b;
+}
+
+/* Do the roots, mine from x0 to x1 and theirs from y0 to y1 (whose origin is at (a, b) of mine), come within reach? */
+static inline bool ff_roots_near(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
+                                 float a, float b, float reach)
+{
+    enum { R = FF_COLLIDER_ROOT };
+    float pa = y0->a[R] + a - x0->a[R], pb = y0->b[R] + b - x0->b[R];
+    float qa = y1->a[R] + a - x1->a[R], qb = y1->b[R] + b - x1->b[R];
+    return ff_nearest_pass(pa, pb, qa - pa, qb - pb) <= reach * reach;
+}
+
+/* Do any two colliders come nearer than the limits, and are they at a height? */
+bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                  float b, const ff_limits *limits);
+
+#endif

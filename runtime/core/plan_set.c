@@ -1,0 +1,340 @@
+#include "runtime/core/plan_set.h"
+
+#include "runtime/core/base/fail.h"
+#include "runtime/core/base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const float RUN_FACTOR = 1.3f, PLATFORM_COST = 150.0f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
+static const double CROSS = -20.0 * FF_DEG;
+static const float BLEND = 0.2f;                    /* s, algorithms B.9 */
+static const float FLAT = 0.05f, LEVEL = 0.03f;     /* m: heights and rises that pass for level ground */
+static const float SHORTEST = 0.2f, LONGEST = 3.0f; /* s */
+
+const float ff_collider_radius[FF_COLLIDER_COUNT] = {0.12f, 0.08f, 0.08f, 0.11f, 0.11f, 0.18f};
+
+void ff_collider_extent(uint32_t collider, float y, float *low, float *high)
+{
+    static const float below[FF_COLLIDER_COUNT] = {0.15f, 0.10f, 0.10f, 10.0f, 10.0f, 0.10f};
+    static const float above[FF_COLLIDER_COUNT] = {0.12f, 0.10f, 0.10f, 0.10f, 0.10f, 0.45f};
+    *low = y - below[collider] > 0.0f ? y - below[collider] : 0.0f;
+    *high = y + above[collider];
+}
+
+/* ------------------------------------------------------------------------------------------------ which ones */
+
+static bool is_platform(const ff_pack_action *r)
+{
+    return r->mode == FF_MODE_JUMP || r->mode == FF_MODE_CROUCH || r->mode == FF_MODE_CLIMB;
+}
+
+/* Can it be walked on level ground? */
+static bool is_usable(const ff_pack_action *r)
+{
+    return r->mode != FF_MODE_CLIMB && fabsf(r->height) < FLAT && fabsf(r->rise) < LEVEL &&
+           r->duration >= SHORTEST && r->duration <= LONGEST && r->collider_samples >= 2 &&
+           r->support != r->swing;
+}
+
+static ff_action_class class_of(const ff_pack_action *r)
+{
+    if (r->flags & FF_ACTION_TO_STANDING) return FF_CLASS_STAND;
+    if (r->speed > 0.5f) return FF_CLASS_WALK;
+    double alpha = fabs((double)r->alpha);
+    if (alpha > 150.0 * FF_DEG) return FF_CLASS_BACK_OPEN;
+    return alpha > 60.0 * FF_DEG ? FF_CLASS_SIDE_OPEN : FF_CLASS_WALK;
+}
+
+static float cost_of(const ff_pack_action *r)
+{
+    float cost = r->energy;
+    if (r->mode == FF_MODE_RUN) cost *= RUN_FACTOR;
+    if (!(r->flags & FF_ACTION_ALPHA_UNDEFINED) && (double)r->alpha < CROSS) cost *= CROSS_FACTOR;
+    if (is_platform(r)) cost += PLATFORM_COST;
+    return cost;
+}
+
+/* --------------------------------------------------------------------------------------------------- records */
+
+static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_action *r)
+{
+    const ff_pack_collider *from = set->pack->colliders + r->first_collider;
+    a->first_knot = set->knot_total;
+    a->knots = r->collider_samples;
+    set->knot_total += a->knots;
+    ff_knot *to = set->samples + a->first_knot;
+    float low_a = INFINITY, low_b = INFINITY, high_a = -INFINITY, high_b = -INFINITY;
+    for (uint32_t k = 0; k < a->knots; ++k)
+        for (uint32_t i = 0; i < FF_TRACK_LANES; ++i) {
+            uint32_t c = i < FF_COLLIDER_COUNT ? i : FF_COLLIDER_ROOT;
+            const ff_pack_collider *p = &from[k * FF_COLLIDER_COUNT + c];
+            to[k].a[i] = p->a;
+            to[k].b[i] = p->b;
+            to[k].y[i] = p->y;
+            low_a = fminf(low_a, p->a), high_a = fmaxf(high_a, p->a);
+            low_b = fminf(low_b, p->b), high_b = fmaxf(high_b, p->b);
+        }
+    a->circle[0] = 0.5f * (low_a + high_a);
+    a->circle[1] = 0.5f * (low_b + high_b);
+    float most = 0.0f;
+    for (uint32_t k = 0; k < a->knots; ++k)
+        for (uint32_t c = 0; c < FF_COLLIDER_COUNT; ++c) {
+            float da = to[k].a[c] - a->circle[0], db = to[k].b[c] - a->circle[1];
+            most = fmaxf(most, sqrtf(da * da + db * db) + ff_collider_radius[c]);
+        }
+    a->circle[2] = most;
+}
+
+static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
+{
+    const ff_pack_action *r = &set->pack->actions[pack_index];
+    ff_set_action *a = &set->actions[index];
+    ff_vec2 turn = ff_fwd2((double)r->theta);
+    *a = (ff_set_action){.duration = r->duration,
+                         .cost = cost_of(r),
+                         .land = {r->land[0], r->land[1]},
+                         .root_end = {r->root_end[0], r->root_end[1]},
+                         .theta = r->theta,
+                         .cosine = (float)turn.a,
+                         .sine = (float)turn.b,
+                         .blend = fminf(BLEND, r->duration - (float)FF_TRACK_STEP),
+                         .support = (uint8_t)r->support,
+                         .kind = (uint8_t)class_of(r),
+                         .pack_index = pack_index};
+    if (r->flags & FF_ACTION_TO_STANDING) a->flags |= FF_SET_TO_STANDING;
+    if (r->flags & FF_ACTION_FROM_STANDING) a->flags |= FF_SET_FROM_STANDING;
+    if (is_platform(r)) a->flags |= FF_SET_REACTIVE;
+    if (!is_platform(r) && a->duration > set->longest) set->longest = a->duration;
+    take_samples(set, a, r);
+}
+
+static int by_cost(const void *x, const void *y)
+{
+    const ff_set_next *p = x, *q = y;
+    if (p->cost != q->cost) return p->cost < q->cost ? -1 : 1;
+    return (p->action > q->action) - (p->action < q->action);
+}
+
+/* Successors among the chosen: steps first, then jumps and ducks, each cheapest first. Standing is waited in, not stepped
+ * in: idle actions follow nothing. */
+static void take_next(ff_action_set *set, uint32_t index, const uint16_t *place)
+{
+    ff_set_action *a = &set->actions[index];
+    const ff_pack *pack = set->pack;
+    const ff_pack_action *r = &pack->actions[a->pack_index];
+    a->first_next = set->next_total;
+    for (int reactive = 0; reactive < 2; ++reactive) {
+        ff_set_next *list = set->next + set->next_total;
+        uint32_t n = 0;
+        for (uint32_t i = 0; i < r->successor_count; ++i) {
+            const ff_pack_successor *s = &pack->successors[r->first_successor + i];
+            const ff_pack_action *next = &pack->actions[s->action];
+            if (place[s->action] == UINT16_MAX || next->mode == FF_MODE_IDLE) continue;
+            if (is_platform(next) != (reactive == 1)) continue;
+            list[n++] = (ff_set_next){place[s->action], next->support != r->swing,
+                                      set->actions[place[s->action]].cost + s->cost, 0.0f};
+        }
+        qsort(list, n, sizeof *list, by_cost);
+        set->next_total += n;
+        if (reactive == 0) a->step_count = n;
+    }
+    a->next_count = set->next_total - a->first_next;
+    if (a->next_count > set->next_most) set->next_most = a->next_count;
+}
+
+/* The furthest that the joint of a and b, whose S0 lies at anchor and is turned by a's theta, moves any collider. */
+static float jump_of(const ff_action_set *set, const ff_set_action *a, const ff_set_action *b,
+                     const float anchor[2])
+{
+    const ff_knot *end = &set->samples[a->first_knot + a->knots - 1], *begin = &set->samples[b->first_knot];
+    float most = 0.0f;
+    for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
+        float da = end->a[i] - anchor[0] - a->cosine * begin->a[i] + a->sine * begin->b[i];
+        float db = end->b[i] - anchor[1] - a->sine * begin->a[i] - a->cosine * begin->b[i];
+        most = fmaxf(most, sqrtf(da * da + db * db));
+    }
+    return most;
+}
+
+/* What follows from the lists: how far successors reach, and the least cost per metre. */
+static void measure_next(ff_action_set *set)
+{
+    set->rate = (float)(2.0 * sqrt(FF_E_S * FF_E_W));
+    for (uint32_t i = 0; i < set->count; ++i) {
+        ff_set_action *a = &set->actions[i];
+        for (uint32_t k = 0; k < a->next_count; ++k) {
+            ff_set_next *next = &set->next[a->first_next + k];
+            const ff_set_action *b = &set->actions[next->action];
+            const float anchor[2] = {next->other ? 0.0f : a->land[0], next->other ? 0.0f : a->land[1]};
+            next->jump = jump_of(set, a, b, anchor);
+            float ra = a->root_end[0] - anchor[0], rb = a->root_end[1] - anchor[1];
+            float ea = a->cosine * b->root_end[0] - a->sine * b->root_end[1] - ra;
+            float eb = a->sine * b->root_end[0] + a->cosine * b->root_end[1] - rb;
+            float ca = a->cosine * b->circle[0] - a->sine * b->circle[1] - ra;
+            float cb = a->sine * b->circle[0] + a->cosine * b->circle[1] - rb;
+            float moved = sqrtf(ea * ea + eb * eb);
+            if (moved > 1e-3f) set->rate = fminf(set->rate, next->cost / moved);
+            a->next_reach = fmaxf(a->next_reach, sqrtf(ca * ca + cb * cb) + b->circle[2] + next->jump);
+        }
+    }
+    set->rate *= 0.9999f; /* sums of floats */
+}
+
+/* ------------------------------------------------------------------------------------------------------ stops */
+
+static void keep_stop(ff_set_stop *list, uint32_t *count, ff_set_stop stop)
+{
+    uint32_t at = *count < FF_SET_STOPS_MAX ? (*count)++ : FF_SET_STOPS_MAX;
+    for (; at > 0 && stop.time < list[at - 1].time; --at)
+        if (at < FF_SET_STOPS_MAX) list[at] = list[at - 1];
+    if (at < FF_SET_STOPS_MAX) list[at] = stop;
+}
+
+/* The ways to a stand in one action; where there is none, in two; the quickest first. */
+static void find_stops(ff_action_set *set, uint32_t index)
+{
+    ff_set_action *a = &set->actions[index];
+    ff_set_stop *list = set->stops + set->stop_total;
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < a->step_count; ++k) {
+        const ff_set_next *next = &set->next[a->first_next + k];
+        const ff_set_action *b = &set->actions[next->action];
+        if (b->flags & FF_SET_TO_STANDING)
+            keep_stop(list, &n, (ff_set_stop){{(uint16_t)k, FF_SET_NO_STOP}, b->duration, next->cost});
+    }
+    bool direct = n > 0;
+    for (uint32_t k = 0; k < a->step_count && !direct; ++k) {
+        const ff_set_next *next = &set->next[a->first_next + k];
+        const ff_set_action *b = &set->actions[next->action];
+        for (uint32_t m = 0; m < b->step_count; ++m) {
+            const ff_set_next *last = &set->next[b->first_next + m];
+            const ff_set_action *c = &set->actions[last->action];
+            if (c->flags & FF_SET_TO_STANDING)
+                keep_stop(list, &n,
+                          (ff_set_stop){{(uint16_t)k, (uint16_t)m},
+                                        b->duration + c->duration,
+                                        next->cost + last->cost});
+        }
+    }
+    a->first_stop = set->stop_total;
+    a->stop_count = n;
+    set->stop_total += n;
+}
+
+/* ------------------------------------------------------------------------------------------------------ create */
+
+/* Sums over the chosen actions, for the arrays' sizes. */
+static ff_status take_memory(ff_action_set *set, const bool *chosen, ff_error *error)
+{
+    size_t knots = 0, next = 0;
+    for (uint32_t i = 0; i < set->pack->action_count; ++i) {
+        if (!chosen[i]) continue;
+        knots += set->pack->actions[i].collider_samples;
+        next += set->pack->actions[i].successor_count;
+    }
+    set->actions = ff_calloc(set->count, sizeof *set->actions);
+    set->next = ff_calloc(next, sizeof *set->next);
+    set->stops = ff_calloc((size_t)set->count * FF_SET_STOPS_MAX, sizeof *set->stops);
+    set->samples = ff_calloc(knots, sizeof *set->samples);
+    if (set->actions && set->next && set->stops && set->samples) return FF_OK;
+    return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", set->count);
+}
+
+static ff_status fill(ff_action_set *set, const bool *chosen, uint32_t stand, ff_error *error)
+{
+    uint32_t total = set->pack->action_count, n = 0;
+    uint16_t *place = ff_calloc(total, sizeof *place);
+    if (!place) return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", set->count);
+    for (uint32_t i = 0; i < total; ++i) {
+        place[i] = chosen[i] ? (uint16_t)n : UINT16_MAX;
+        if (!chosen[i]) continue;
+        if (i == stand) set->stand = n;
+        take_action(set, n++, i);
+    }
+    for (uint32_t i = 0; i < set->count; ++i)
+        take_next(set, i, place);
+    free(place);
+    measure_next(set);
+    for (uint32_t i = 0; i < set->count; ++i)
+        find_stops(set, i);
+    if (set->actions[set->stand].step_count == 0)
+        return ff_fail(error, FF_ERR_NO_DATA, "nothing may follow the pack's standing (action %u)", stand);
+    return FF_OK;
+}
+
+ff_status ff_action_set_create(const ff_pack *pack, uint32_t cap, ff_action_set **out, ff_error *error)
+{
+    *out = NULL;
+    if (cap == 0) cap = FF_ACTIONS_DEFAULT;
+    if (cap > UINT16_MAX - 1u) cap = UINT16_MAX - 1u;
+    bool *usable = ff_calloc(pack->action_count, sizeof *usable);
+    bool *chosen = ff_calloc(pack->action_count, sizeof *chosen);
+    ff_action_set *set = ff_calloc(1, sizeof *set);
+    ff_status status = FF_OK;
+    uint32_t stand = 0;
+    if (!usable || !chosen || !set)
+        status = ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", cap);
+    else {
+        set->pack = pack;
+        for (uint32_t i = 0; i < pack->action_count; ++i)
+            usable[i] = is_usable(&pack->actions[i]);
+        set->count = ff_set_select(pack, cap, usable, chosen, &stand);
+        if (set->count == 0)
+            status = ff_fail(
+                error, FF_ERR_NO_DATA,
+                "the pack has no actions to stand, start and stop with; build it without --no-derived");
+    }
+    if (status == FF_OK) status = take_memory(set, chosen, error);
+    if (status == FF_OK) status = fill(set, chosen, stand, error);
+    free(usable);
+    free(chosen);
+    if (status != FF_OK) {
+        ff_action_set_destroy(set);
+        return status;
+    }
+    *out = set;
+    return FF_OK;
+}
+
+void ff_action_set_destroy(ff_action_set *set)
+{
+    if (!set) return;
+    free(set->actions);
+    free(set->next);
+    free(set->stops);
+    free(set->samples);
+    free(set);
+}
+
+/* ----------------------------------------------------------------------------------------------------- questions */
+
+uint32_t ff_action_set_count(const ff_action_set *set)
+{
+    return set->count;
+}
+
+const ff_pack_action *ff_action_set_record(const ff_action_set *set, uint32_t action)
+{
+    return &set->pack->actions[set->actions[action].pack_index];
+}
+
+uint32_t ff_action_set_pack_index(const ff_action_set *set, uint32_t action)
+{
+    return set->actions[action].pack_index;
+}
+
+uint32_t ff_action_set_stand(const ff_action_set *set)
+{
+    return set->stand;
+}
+
+const ff_pack *ff_action_set_pack(const ff_action_set *set)
+{
+    return set->pack;
+}
+
+double ff_action_blend(const ff_action_set *set, uint32_t action)
+{
+    return (double)set->actions[action].blend;
+}

@@ -1,0 +1,97 @@
+/* plan_set.h - the inside of an action set: what a search touches, close together. Single precision: searches work near
+ * their own start. */
+#ifndef FF_PLAN_SET_H
+#define FF_PLAN_SET_H
+
+#include "runtime/core/plan.h"
+
+#define FF_E_S 2.23 /* J/(kg s): of standing (algorithms B.2) */
+#define FF_E_W 1.26 /* J s/(kg m2) */
+
+enum {
+    FF_SET_TO_STANDING = 1,   /* ends in standing */
+    FF_SET_FROM_STANDING = 2, /* begins in standing */
+    FF_SET_REACTIVE = 4,      /* a jump, a duck: only when asked for */
+};
+
+/* What an action leads to. */
+typedef enum ff_action_class {
+    FF_CLASS_WALK,
+    FF_CLASS_STAND,
+    FF_CLASS_SIDE_OPEN, /* feet apart, one goes on to the side or closes */
+    FF_CLASS_BACK_OPEN
+} ff_action_class;
+
+typedef struct ff_set_action {
+    float duration, cost; /* s, J/kg with penalties */
+    float land[2];        /* m, in S0 */
+    float root_end[2];    /* m */
+    float theta, cosine, sine;
+    float blend;                /* s */
+    float circle[3];            /* a, b, radius: in S0, holds all colliders at all times */
+    float next_reach;           /* m: from the root at the end, how far any collider of any successor gets */
+    uint32_t first_knot, knots; /* into samples, evenly from start to end */
+    uint32_t first_next, next_count, step_count; /* into next; the first step_count are no jumps and ducks */
+    uint32_t first_stop, stop_count;             /* into stops */
+    uint16_t flags;
+    uint8_t support, kind; /* foot; ff_action_class of the end */
+    uint32_t pack_index;
+} ff_set_action;
+
+/* What may follow, cheapest first. */
+typedef struct ff_set_next {
+    uint16_t action;
+    uint16_t other; /* 1: stands on the foot that the action before stood on */
+    float cost;     /* J/kg of action and joint */
+    float jump;     /* m, the furthest that the joint moves any collider */
+} ff_set_next;
+
+/* The shortest ways to a stand from the end of an action: one or two actions. */
+typedef struct ff_set_stop {
+    uint16_t
+        next[2]; /* into the lists of `next`, relative to the first of each action; 0xffff: no second one */
+    float time, cost;
+} ff_set_stop;
+enum { FF_SET_STOPS_MAX = 12, FF_SET_NO_STOP = 0xffff };
+
+struct ff_action_set {
+    const ff_pack *pack;
+    uint32_t count, stand;
+    ff_set_action *actions;
+    ff_set_next *next;
+    ff_set_stop *stops;
+    ff_knot *samples;
+    uint32_t next_total, knot_total, stop_total;
+    uint32_t next_most; /* successors of one action */
+    float rate;         /* J/kg per m: no sequence of actions moves the root further for less */
+    float longest;      /* s, of any action that is no jump */
+};
+
+/* Colliders of an action at t seconds from its start, in S0. */
+static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *action, float t, ff_knot *out)
+{
+    float at = t * (float)(action->knots - 1) / action->duration;
+    int k = (int)at;
+    k = k < 0 ? 0 : (k > (int)action->knots - 2 ? (int)action->knots - 2 : k);
+    float f = at - (float)k;
+    f = f < 0.0f ? 0.0f : (f > 1.0f ? 1.0f : f);
+    const ff_knot *p = &set->samples[action->first_knot + (uint32_t)k], *q = p + 1;
+    for (int i = 0; i < FF_TRACK_LANES; ++i) {
+        out->a[i] = p->a[i] + f * (q->a[i] - p->a[i]);
+        out->b[i] = p->b[i] + f * (q->b[i] - p->b[i]);
+        out->y[i] = p->y[i] + f * (q->y[i] - p->y[i]);
+    }
+}
+
+/* Share of the jump at a joint that is left t seconds into the action. */
+static inline float ff_set_blend(const ff_set_action *action, float t)
+{
+    if (!(t < action->blend)) return 0.0f;
+    float x = t / action->blend;
+    return 1.0f - x * x * (3.0f - 2.0f * x);
+}
+
+/* Which actions of the pack to take: marks chosen[], at most cap; returns how many (plan_select.c). */
+uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *chosen, uint32_t *stand);
+
+#endif

@@ -1,0 +1,77 @@
+/* plan_sight.h - what one search sees, and whether an action, or standing, is free of it. All times count knots from the
+ * search's first one; all places are relative to where it starts. */
+#ifndef FF_PLAN_SIGHT_H
+#define FF_PLAN_SIGHT_H
+
+#include "runtime/core/plan_hit.h"
+#include "runtime/core/plan_set.h"
+#include "runtime/core/plan_solids.h"
+
+enum { FF_SIGHT_MAX = 64, FF_SIGHT_MOVING_MAX = 64, FF_SIGHT_KNOTS = 32 };
+
+/* Another agent's track. */
+typedef struct ff_sight_track {
+    const ff_track *track;
+    float a, b;    /* m, of its origin */
+    int32_t shift; /* its first knot */
+    float distance;
+} ff_sight_track;
+
+/* A moving obstacle, or somebody who goes by velocity, knot by knot. */
+typedef struct ff_sight_mover {
+    ff_solid solid; /* at (0, 0) */
+    double grow;    /* m per knot, of its margin */
+    ff_vec2 at[FF_TRACK_KNOTS_MAX];
+    float slack[FF_TRACK_KNOTS_MAX]; /* m, by which it leaves the straight line between knots k and k + 1 */
+    uint32_t known;                  /* knots; after them it stands, or is gone */
+    uint32_t gone;
+} ff_sight_mover;
+
+typedef struct ff_sight {
+    const ff_action_set *set;
+    const ff_solids *solids;
+    ff_vec2 origin;
+    int64_t first_knot;
+    double lead; /* s, from the first knot to the start of the search */
+    float margin, stand_margin;
+    ff_limits limits, stand_limits;
+    uint32_t count, mover_count, shape_count;
+    ff_sight_track seen[FF_SIGHT_MAX];
+    ff_sight_mover mover[FF_SIGHT_MOVING_MAX];
+    ff_solid shape[FF_SIGHT_MAX];
+    float cost, cost_within; /* proximity */
+} ff_sight;
+
+/* What of the world is near enough; knots numbered from the one at or before time. */
+void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const ff_plan_options *options,
+                   ff_vec2 origin, double time, ff_sight *out);
+
+/* Where an agent is at the joint between two actions: everything its next steps have in common. */
+typedef struct ff_stance {
+    float at[2], other[2]; /* m: ball of the foot that has landed, anchor of the action that is over */
+    float cosine, sine;    /* of the heading now */
+    float time;            /* s from the first knot */
+    uint16_t action;
+    uint8_t hold; /* stood since then */
+    ff_knot end;  /* colliders now */
+    ff_knot tail; /* and at the last knot not after now */
+    int32_t knot; /* its number */
+    float moved;  /* m, the furthest that any collider moves from tail to end */
+    /* who is near enough for any successor to meet */
+    uint32_t near_count, mover_count;
+    uint16_t near[FF_SIGHT_MAX], mover[FF_SIGHT_MOVING_MAX];
+    float room[FF_SIGHT_MAX][4]; /* of those near, over all successors */
+    bool solids;
+} ff_stance;
+
+/* Fill in everything after `hold`. before: the anchor and heading that the action began with. */
+void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine, ff_stance *stance);
+
+/* Is a successor (of set->next) free of everything, up to the knot at or before its end? *cost (may be NULL) gets what
+ * going near others costs. */
+bool ff_stance_free(const ff_sight *sight, const ff_stance *stance, const ff_set_next *next, float *cost);
+
+/* Is waiting for a time, or (INFINITY) standing for ever? */
+bool ff_stance_waits(const ff_sight *sight, const ff_stance *stance, float seconds);
+
+#endif
