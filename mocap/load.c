@@ -70,7 +70,12 @@ static ff_status find_skeleton(const char *path, char **out, ff_error *error)
     return FF_ERR_IO;
 }
 
-static ff_status load_asf(const char *path, bool strict, ff_asf *out, ff_error *error)
+double ff_asf_unit(const ff_asf *asf)
+{
+    return asf->length > 0.0 ? 0.0254 / asf->length : 0.0; /* algorithms A.2: inches over the length entry */
+}
+
+ff_status ff_asf_load(const char *path, bool strict, ff_asf *out, ff_error *error)
 {
     ff_file file;
     ff_status status = ff_file_map(path, &file, error);
@@ -86,10 +91,11 @@ static ff_status read_amc(const ff_file *file, const char *path, const ff_load_o
     char *found = NULL;
     ff_status status = options->skeleton ? FF_OK : find_skeleton(path, &found, error);
     ff_asf asf;
-    if (status == FF_OK) status = load_asf(found ? found : options->skeleton, options->strict, &asf, error);
+    if (status == FF_OK)
+        status = ff_asf_load(found ? found : options->skeleton, options->strict, &asf, error);
     free(found);
     if (status != FF_OK) return status;
-    *unit_m = asf.length > 0.0 ? 0.0254 / asf.length : 0.0; /* algorithms A.2: inches over the length entry */
+    *unit_m = ff_asf_unit(&asf);
     status = ff_amc_parse(&asf, file->data, file->size, path, options, out, error);
     ff_asf_free(&asf);
     return status;

@@ -27,6 +27,11 @@ ff_load_options ff_load_options_default(void);
  * frees *out with ff_clip_free. */
 ff_status ff_clip_load(const char *path, const ff_load_options *options, ff_clip *out, ff_error *error);
 
+/* Read the skeleton of a file (.asf, .bvh, .gltf, .glb, .amc) as a clip: of an ASF, or of a glTF character that nothing
+ * moves, its rest pose as the one frame, of any other the clip. Hips, knees and ankles must be there, else
+ * FF_ERR_NO_DATA names the missing one. Otherwise as ff_clip_load. */
+ff_status ff_skeleton_load(const char *path, const ff_load_options *options, ff_clip *out, ff_error *error);
+
 /* How much of a path is the file's: all of it, but for the #ANIMATION after .gltf or .glb. */
 size_t ff_clip_file_length(const char *path);
 

@@ -38,6 +38,10 @@ ff_status ff_asf_parse(const char *data, size_t size, const char *name, bool str
                        ff_error *error);
 void ff_asf_free(ff_asf *asf);
 
+ff_status ff_asf_load(const char *path, bool strict, ff_asf *out, ff_error *error);
+/* Metres per file unit as the file states it; 0 = it does not. */
+double ff_asf_unit(const ff_asf *asf);
+
 /* The motion of a skeleton; the clip gets its own copy of the joints. */
 ff_status ff_amc_parse(const ff_asf *asf, const char *data, size_t size, const char *name,
                        const ff_load_options *options, ff_clip *out, ff_error *error);

@@ -178,13 +178,30 @@ static ff_status run_stage(build *b, const char *what, void (*run)(ff_build_clip
     return set_bad_aside(b, error);
 }
 
+/* The skeleton that was asked for. */
+static ff_status load_rig(build *b, const char *path, ff_error *error)
+{
+    ff_load_options options = ff_load_options_default();
+    options.strict = b->settings->strict;
+    ff_clip clip;
+    ff_status status = ff_skeleton_load(path, &options, &clip, error);
+    if (status != FF_OK) return status;
+    const ff_clip *only = &clip;
+    status = ff_rig_from_clips(&only, 1, &b->rig, error);
+    if (status != FF_OK) ff_error_in_file(error, path);
+    ff_clip_free(&clip);
+    return status;
+}
+
+/* Each person counts once, however many clips there are of them: clips of one subject have the same bones. */
 static ff_status make_rig(build *b, ff_error *error)
 {
     const ff_clip **clips = ff_calloc((size_t)b->good, sizeof(const ff_clip *));
     if (!clips) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
+    int people = 0;
     for (int i = 0; i < b->good; ++i)
-        clips[i] = &b->clips[i].clip;
-    ff_status status = ff_rig_from_clips(clips, b->good, &b->rig, error);
+        if (b->clips[i].first_of_subject) clips[people++] = &b->clips[i].clip;
+    ff_status status = ff_rig_from_clips(clips, people, &b->rig, error);
     free(clips);
     return status;
 }
@@ -330,14 +347,16 @@ static void prune(const build *b)
 
 static ff_status run(build *b, ff_error *error)
 {
+    const char *given = b->settings->pack.rig.skeleton;
     ff_status status = name_sources(b, error);
     b->good = b->count;
+    if (status == FF_OK && *given) status = load_rig(b, given, error);
     if (status == FF_OK) status = run_stage(b, "reading", ff_build_clip_find, error);
-    if (status == FF_OK) status = make_rig(b, error);
+    if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
+    if (status == FF_OK && !*given) status = make_rig(b, error);
     if (status == FF_OK) status = ff_pack_add_rig(&b->result->content, &b->rig, error);
     b->shared.joints = b->result->content.joints.data;
     b->shared.points = b->result->content.points.data;
-    if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
     if (status == FF_OK) status = run_stage(b, "cutting", ff_build_clip_cut, error);
     if (status == FF_OK) status = fill(b, error);
     return status;

@@ -114,7 +114,7 @@ static int build_and_write(const ff_operands *operands, const ff_build_settings 
 /* Names and what they mean when the command's words are all read: configuration, then what options say, then the cache
  * beside the pack. Returns -1 to go on. */
 typedef struct build_words {
-    const char *path, *config, *cache;
+    const char *path, *config, *cache, *skeleton;
     double rate;     /* 0 = not given */
     int64_t actions; /* 0 = not given */
     bool no_derived;
@@ -133,6 +133,11 @@ static int settle(const ff_command *command, const build_words *words, ff_build_
         return ff_command_fail(PROGRAM, &error);
     if (words->rate > 0.0) settings->pack.poses.rate = words->rate;
     if (words->raw) settings->pack.motion.clean = false;
+    if (words->skeleton) {
+        if (strlen(words->skeleton) >= FF_SETTING_PATH)
+            return ff_command_misuse(command, "--skeleton: the path is too long");
+        strcpy(settings->pack.rig.skeleton, words->skeleton);
+    }
     if (words->actions > 0) settings->pack.actions.count = words->actions;
     if (words->no_derived) settings->pack.actions.derive = false;
     settings->threads = (uint32_t)words->threads;
@@ -161,6 +166,10 @@ int ff_build_command(int argc, char **argv)
          .value_name = "FILE",
          .help = "settings as JSON; 'footfall-pack config' prints them all",
          .text = &words.config},
+        {.name = "--skeleton",
+         .value_name = "FILE",
+         .help = "clip or skeleton (.asf, .bvh, .gltf, .glb) whose body the pack has; default: the median",
+         .text = &words.skeleton},
         {.name = "--skin",
          .value_name = "FILE",
          .help = "glTF character to draw instead of a body of capsules",

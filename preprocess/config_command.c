@@ -7,7 +7,9 @@
 
 static void print_value(const ff_setting *setting, double value)
 {
-    if (setting->kind == FF_SETTING_SWITCH)
+    if (setting->kind == FF_SETTING_FILE)
+        printf("\"\"");
+    else if (setting->kind == FF_SETTING_SWITCH)
         printf("%s", value != 0.0 ? "true" : "false");
     else
         printf("%.10g", value);
@@ -16,7 +18,9 @@ static void print_value(const ff_setting *setting, double value)
 static void print_setting(const ff_setting *setting, bool last)
 {
     printf("    \"// %s\": \"", setting->key);
-    if (setting->kind == FF_SETTING_SWITCH)
+    if (setting->kind == FF_SETTING_FILE)
+        printf("a file, relative to this one's folder, or \\\"\\\" for none");
+    else if (setting->kind == FF_SETTING_SWITCH)
         printf("true or false");
     else
         printf("%s%s%.10g to %.10g", setting->unit, *setting->unit ? ", " : "", setting->low, setting->high);

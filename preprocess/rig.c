@@ -102,7 +102,10 @@ static ff_vec3 median_bone(const ff_clip *const *clips, int clip_count, int role
         double length = ff_max(median_length(s), ff_length3(fallback[role]) * 0.5);
         return ff_v3(0.0, -ANKLE_OVER_BALL, sqrt(length * length - ANKLE_OVER_BALL * ANKLE_OVER_BALL));
     }
-    if (s->directions == 0) return fallback[role];
+    if (s->directions == 0) {
+        double length = median_length(s);
+        return length > 0.0 ? ff_scale3(ff_unit3(fallback[role]), length) : fallback[role];
+    }
     ff_vec3 bone =
         ff_v3(ff_filter_quantile(s->x, s->directions, 0.5), ff_filter_quantile(s->y, s->directions, 0.5),
               ff_filter_quantile(s->z, s->directions, 0.5));

@@ -7,6 +7,7 @@
 #include "runtime/core/base/memory.h"
 #include "runtime/core/pack_format.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,8 +31,16 @@
             offsetof(ff_settings, section.key)                                                               \
     }
 
+#define FILE_NAME(section, key, stage, what)                                                                 \
+    {                                                                                                        \
+#section, #key, FF_SETTING_FILE, stage, "", 0.0, 0.0, 1.0, what, offsetof(ff_settings, section.key)  \
+    }
+
 /* Settings of one section stand together. */
 const ff_setting ff_setting_table[] = {
+    FILE_NAME(rig, skeleton, FF_STAGE_PACK,
+              "clip or skeleton file (.asf, .bvh, .gltf, .glb, .amc) whose body the pack has; else the "
+              "median of all"),
     SWITCH(motion, clean, FF_STAGE_CUT, true, "planted feet are made to stand still"),
     NUMBER(poses, rate, FF_STAGE_PACK, "Hz", FF_PACK_RATE, 10.0, 240.0,
            "how often the report shows heights and speeds of feet"),
@@ -57,6 +66,8 @@ double ff_setting_value(const ff_settings *settings, const ff_setting *setting)
         return (double)*(const int64_t *)place;
     case FF_SETTING_SWITCH:
         return *(const bool *)place ? 1.0 : 0.0;
+    case FF_SETTING_FILE:
+        return *(const char *)place ? 1.0 : 0.0;
     default:
         return *(const double *)place;
     }
@@ -71,6 +82,9 @@ static void set_value(ff_settings *settings, const ff_setting *setting, double v
         break;
     case FF_SETTING_SWITCH:
         *(bool *)place = value != 0.0;
+        break;
+    case FF_SETTING_FILE:
+        *(char *)place = '\0';
         break;
     default:
         *(double *)place = value;
@@ -91,9 +105,25 @@ uint64_t ff_settings_hash(const ff_settings *settings, ff_setting_stage up_to, u
     for (int i = 0; i < ff_setting_count; ++i) {
         const ff_setting *s = &ff_setting_table[i];
         double value = ff_setting_value(settings, s);
-        if (s->stage <= up_to) seed = XXH64(&value, sizeof value, seed);
+        if (s->stage <= up_to && s->kind != FF_SETTING_FILE) seed = XXH64(&value, sizeof value, seed);
     }
     return seed;
+}
+
+static json_t *json_of(const ff_settings *settings, const ff_setting *setting)
+{
+    double value = ff_setting_value(settings, setting);
+    const char *path = (const char *)settings + setting->place;
+    switch (setting->kind) {
+    case FF_SETTING_WHOLE:
+        return json_integer((json_int_t)value);
+    case FF_SETTING_SWITCH:
+        return json_boolean(value != 0.0);
+    case FF_SETTING_FILE:
+        return json_string(strrchr(path, '/') ? strrchr(path, '/') + 1 : path);
+    default:
+        return json_real(value);
+    }
 }
 
 json_t *ff_settings_json(const ff_settings *settings)
@@ -101,16 +131,12 @@ json_t *ff_settings_json(const ff_settings *settings)
     json_t *root = json_object();
     for (int i = 0; i < ff_setting_count; ++i) {
         const ff_setting *s = &ff_setting_table[i];
-        double value = ff_setting_value(settings, s);
         json_t *section = json_object_get(root, s->section);
         if (!section) {
             section = json_object();
             json_object_set_new(root, s->section, section);
         }
-        json_object_set_new(section, s->key,
-                            s->kind == FF_SETTING_NUMBER  ? json_real(value)
-                            : s->kind == FF_SETTING_WHOLE ? json_integer((json_int_t)value)
-                                                          : json_boolean(value != 0.0));
+        json_object_set_new(section, s->key, json_of(settings, s));
     }
     return root;
 }
@@ -144,6 +170,20 @@ static ff_status check_keys(const ff_json *json, json_t *object, const char *con
     return status;
 }
 
+/* A path of the document, relative to the document's folder. */
+static ff_status read_path(const ff_json *json, const json_t *section, const char *key, char *out,
+                           ff_error *error)
+{
+    const char *value = NULL, *slash = strrchr(json->path, '/');
+    ff_status status = ff_json_string(json, section, key, &value, error);
+    if (status != FF_OK || !value) return status;
+    int folder = slash && *value && *value != '/' ? (int)(slash + 1 - json->path) : 0;
+    int length = snprintf(out, FF_SETTING_PATH, "%.*s%s", folder, json->path, value);
+    if (length < FF_SETTING_PATH) return FF_OK;
+    return ff_json_fail(json, json_object_get(section, key), error, "\"%s\": a path of more than %d bytes",
+                        key, FF_SETTING_PATH - 1);
+}
+
 static ff_status read_setting(const ff_json *json, const json_t *section, const ff_setting *setting,
                               ff_settings *out, ff_error *error)
 {
@@ -154,6 +194,8 @@ static ff_status read_setting(const ff_json *json, const json_t *section, const 
                                place, error);
     case FF_SETTING_SWITCH:
         return ff_json_bool(json, section, setting->key, place, error);
+    case FF_SETTING_FILE:
+        return read_path(json, section, setting->key, place, error);
     default:
         return ff_json_number(json, section, setting->key, setting->low, setting->high, place, error);
     }

@@ -7,7 +7,12 @@
 
 #include "runtime/tool/json.h"
 
+enum { FF_SETTING_PATH = 1024 }; /* bytes of a path, with its end */
+
 typedef struct ff_settings {
+    struct {
+        char skeleton[FF_SETTING_PATH];
+    } rig;
     struct {
         bool clean;
     } motion;
@@ -27,16 +32,21 @@ typedef enum ff_setting_stage {
     FF_STAGE_PACK  /* all clips together */
 } ff_setting_stage;
 
-typedef enum ff_setting_kind { FF_SETTING_NUMBER, FF_SETTING_WHOLE, FF_SETTING_SWITCH } ff_setting_kind;
+typedef enum ff_setting_kind {
+    FF_SETTING_NUMBER,
+    FF_SETTING_WHOLE,
+    FF_SETTING_SWITCH,
+    FF_SETTING_FILE
+} ff_setting_kind;
 
 typedef struct ff_setting {
     const char *section, *key; /* "poses", "rate": {"poses": {"rate": 60}} */
     ff_setting_kind kind;
     ff_setting_stage stage;
     const char *unit;           /* "Hz"; "" for a plain number or switch */
-    double standard, low, high; /* default and range; of a switch 0 or 1 */
+    double standard, low, high; /* default and range; of a switch 0 or 1; of a file 0: none by default */
     const char *what;           /* one line for people */
-    size_t place;               /* in ff_settings: double, int64_t or bool */
+    size_t place; /* in ff_settings: double, int64_t, bool or char[FF_SETTING_PATH] ("" = none) */
 } ff_setting;
 
 extern const ff_setting ff_setting_table[];
@@ -45,18 +55,20 @@ extern const int ff_setting_count;
 ff_settings ff_settings_default(void);
 
 /* Set *out from a configuration: {"section": {"key": value}}, what is absent keeps its default. Keys that begin with
- * "//" are comments (strings). Everything else that is unknown, of another type or out of range is refused with its
- * place. */
+ * "//" are comments (strings). Files are named relative to the folder of path or name. Everything else that is unknown,
+ * of another type or out of range is refused with its place. */
 ff_status ff_settings_load(const char *path, ff_settings *out, ff_error *error);
 ff_status ff_settings_parse(const char *text, size_t size, const char *name, ff_settings *out,
                             ff_error *error);
 
+/* Of a file 1 when there is one. */
 double ff_setting_value(const ff_settings *settings, const ff_setting *setting);
 
-/* The settings of one section after the other, as an object; NULL when memory is short. */
+/* The settings of one section after the other, as an object, files without their folders; NULL when memory is short. */
 json_t *ff_settings_json(const ff_settings *settings);
 
-/* XXH64 over the values of every setting of the stages up to this one, going on from seed. */
+/* XXH64 over the values of every setting of the stages up to this one, going on from seed. Files do not count: what is in
+ * them does, for whoever uses it. */
 uint64_t ff_settings_hash(const ff_settings *settings, ff_setting_stage up_to, uint64_t seed);
 
 /* footfall-pack config: print the reference, a configuration with every setting at its default and a comment. */

@@ -43,9 +43,13 @@ static void every_setting_is_described_and_its_default_is_in_range(void **state)
 static void no_setting_is_missing_from_the_table(void **state)
 {
     (void)state;
+    static const size_t size[] = {[FF_SETTING_NUMBER] = sizeof(double),
+                                  [FF_SETTING_WHOLE] = sizeof(int64_t),
+                                  [FF_SETTING_SWITCH] = sizeof(bool),
+                                  [FF_SETTING_FILE] = FF_SETTING_PATH};
     size_t described = 0;
     for (int i = 0; i < ff_setting_count; ++i)
-        described += ff_setting_table[i].kind == FF_SETTING_SWITCH ? sizeof(bool) : sizeof(double);
+        described += size[ff_setting_table[i].kind];
     assert_true(sizeof(ff_settings) - described < sizeof(double) * 8); /* padding after switches */
     if (described % sizeof(double) == 0) assert_int_equal(described, sizeof(ff_settings));
 }
@@ -55,7 +59,7 @@ static void a_setting_can_be_set_to_both_ends_of_its_range_and_no_further(void *
     (void)state;
     for (int i = 0; i < ff_setting_count; ++i) {
         const ff_setting *s = &ff_setting_table[i];
-        if (s->kind == FF_SETTING_SWITCH) continue;
+        if (s->kind == FF_SETTING_SWITCH || s->kind == FF_SETTING_FILE) continue;
         const char *format =
             s->kind == FF_SETTING_WHOLE ? "{\"%s\": {\"%s\": %.0f}}" : "{\"%s\": {\"%s\": %.17g}}";
         const double inside[] = {s->low, s->high}, outside[] = {s->low - 1.0, s->high + 1.0};
@@ -85,6 +89,34 @@ static void what_is_absent_keeps_its_default_and_comments_are_allowed_anywhere(v
         parse("{\"//\": \"mine\", \"poses\": {\"// rate\": \"slow\", \"rate\": 30}}", &settings, &error),
         error);
     FF_ASSERT_NEAR(settings.poses.rate, 30.0, 0.0);
+}
+
+static void files_are_named_relative_to_the_configuration(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *file, *path;
+    } cases[] = {{"a/my.json", "body.bvh", "a/body.bvh"},
+                 {"my.json", "b/body.bvh", "b/body.bvh"},
+                 {"a/my.json", "/c/body.bvh", "/c/body.bvh"},
+                 {"a/my.json", "", ""}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char text[100];
+        ff_settings settings;
+        ff_error error;
+        snprintf(text, sizeof text, "{\"rig\": {\"skeleton\": \"%s\"}}", cases[i].file);
+        FF_ASSERT_OK(ff_settings_parse(text, strlen(text), cases[i].name, &settings, &error), error);
+        assert_string_equal(settings.rig.skeleton, cases[i].path);
+    }
+    char name[FF_SETTING_PATH + 1], text[FF_SETTING_PATH + 100];
+    ff_settings settings;
+    ff_error error;
+    memset(name, 'x', FF_SETTING_PATH);
+    name[FF_SETTING_PATH] = '\0';
+    snprintf(text, sizeof text, "{\"rig\": {\"skeleton\": \"%s\"}}", name);
+    assert_int_equal(parse(text, &settings, &error), FF_ERR_PARSE);
+    assert_non_null(strstr(error.message, "more than"));
+    assert_int_equal(error.column, 22);
 }
 
 static void what_is_wrong_is_refused_at_its_place_and_changes_nothing(void **state)
@@ -138,6 +170,7 @@ int main(void)
         cmocka_unit_test(no_setting_is_missing_from_the_table),
         cmocka_unit_test(a_setting_can_be_set_to_both_ends_of_its_range_and_no_further),
         cmocka_unit_test(what_is_absent_keeps_its_default_and_comments_are_allowed_anywhere),
+        cmocka_unit_test(files_are_named_relative_to_the_configuration),
         cmocka_unit_test(what_is_wrong_is_refused_at_its_place_and_changes_nothing),
         cmocka_unit_test(a_hash_sees_the_settings_of_its_stage_and_those_before),
     };
