@@ -9,7 +9,10 @@ int ff_step_mode(const ff_rig *rig, const ff_motion *motion, const ff_plants *pl
                  const ff_step_span *span, int mode_tag, bool from_standing, bool to_standing);
 
 /* False when the step breaks a limit of algorithms A.6; reason (size bytes) then says which. */
-bool ff_step_acceptable(const ff_motion *motion, const ff_plants *plants, const ff_step_span *span,
-                        const ff_pack_action *record, char *reason, size_t size);
+bool ff_step_acceptable(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                        const ff_step_span *span, const ff_pack_action *record, char *reason, size_t size);
+
+/* Are the hips, on average, as low as those of someone who crouches, sits or lies? */
+bool ff_is_crouched(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int first, int last);
 
 #endif

@@ -64,7 +64,8 @@ static ff_status take(cutting *c, const ff_step_span *span)
     ff_action *action = ff_array_grow(&c->actions, 1, sizeof *action);
     if (!action) return no_memory(c);
     ff_action_annotate(c->rig, c->motion, c->plants, span, action);
-    if (ff_step_acceptable(c->motion, c->plants, span, &action->record, reason, sizeof reason)) return FF_OK;
+    if (ff_step_acceptable(c->rig, c->motion, c->plants, span, &action->record, reason, sizeof reason))
+        return FF_OK;
     --c->actions.count;
     return reject(c, span->first, span->last, reason);
 }
@@ -186,14 +187,20 @@ static ff_status cut_wholes(cutting *c)
     return cut_whole(c, &all);
 }
 
-/* Half a second of standing from the middle of the longest stretch, so that waiting can be planned. */
+/* Half a second of standing from the middle of the longest stretch, so that waiting can be planned. Who sits or lies is
+ * as still, but does not stand. */
 static ff_status cut_idle(cutting *c)
 {
-    const ff_stand *best = NULL;
-    for (int i = 0; i < c->stand_count; ++i)
-        if (!best || c->stands[i].last - c->stands[i].first > best->last - best->first) best = &c->stands[i];
+    const ff_stand *best = NULL, *low = NULL;
     int frames = (int)floor(IDLE / c->motion->frame_time + 0.5);
-    if (!best || best->last - best->first < frames) return FF_OK;
+    for (int i = 0; i < c->stand_count; ++i) {
+        const ff_stand *s = &c->stands[i];
+        if (s->last - s->first < frames) continue;
+        bool up = !ff_is_crouched(c->rig, c->motion, c->plants, s->first, s->last);
+        if (up && (!best || s->last - s->first > best->last - best->first)) best = s;
+        if (!up && !low) low = s;
+    }
+    if (!best) return low ? reject(c, low->first, low->last, "sits, lies or crouches: no standing") : FF_OK;
     int first = (best->first + best->last - frames) / 2;
     ff_step_span span = {.first = first,
                          .last = first + frames,
@@ -202,12 +209,7 @@ static ff_status cut_idle(cutting *c)
                          .swing_from = ff_plant_at(c->plants, FF_RIGHT, first),
                          .mode = FF_MODE_IDLE,
                          .flags = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING};
-    if (span.support < 0 || span.swing < 0) return FF_OK;
-    if (ff_breaks_within(&c->plants->breaks, span.first, span.last)) return FF_OK;
-    ff_action *action = ff_array_grow(&c->actions, 1, sizeof *action);
-    if (!action) return no_memory(c);
-    ff_action_annotate(c->rig, c->motion, c->plants, &span, action);
-    return FF_OK;
+    return span.support < 0 || span.swing < 0 ? FF_OK : take(c, &span);
 }
 
 static ff_status cut_all(cutting *c)
