@@ -183,7 +183,7 @@ typedef struct ff_baseline_def {
 typedef struct ff_crowd_def {
     uint32_t max_agents;      /* hard cap; all memory is taken at creation */
     uint32_t max_walls;       /* static segments */
-    double step;              /* s, fixed simulation step, > 0; default 1/30 */
+    double step;              /* s, fixed simulation step, up to 0.25; default 1/30 */
     uint64_t seed;            /* same seed and same calls give the same bits */
     uint32_t threads;         /* own pool of this many threads; 1 = the caller's only. Ignored if tasks set */
     ff_parallel_for *tasks;   /* caller's scheduler, or NULL */
@@ -229,6 +229,20 @@ uint64_t ff_crowd_step_count(const ff_crowd *crowd);
 
 /* FNV-1a over the bits of the whole state: equal on any number of threads. */
 uint64_t ff_crowd_state_hash(const ff_crowd *crowd);
+
+/* A crowd written down whole, but for the pack: saved, loaded and continued it does to the bit what it would have done. The
+ * size, then so many bytes at data; save_file writes all or nothing. Ask between steps, not from another thread. */
+size_t ff_crowd_save_size(const ff_crowd *crowd);
+ff_status ff_crowd_save(const ff_crowd *crowd, void *data, size_t size, ff_error *error);
+ff_status ff_crowd_save_file(const ff_crowd *crowd, const char *path, ff_error *error);
+
+/* A crowd from what was saved, on the pack it was saved with, which must outlive it; handles of agents stay what they were.
+ * Of run only threads, tasks and task_pool are taken, all else is as saved; NULL: one thread. Everything is checked:
+ * whatever is damaged or of another version is refused, with section and byte. */
+ff_status ff_crowd_load(const ff_pack *pack, const void *data, size_t size, const ff_crowd_def *run,
+                        ff_crowd **out, ff_error *error);
+ff_status ff_crowd_load_file(const ff_pack *pack, const char *path, const ff_crowd_def *run, ff_crowd **out,
+                             ff_error *error);
 
 typedef struct ff_agent_state {
     ff_vec2 position;   /* m, root and disc */

@@ -10,6 +10,7 @@
 #define AGENT_COOKIE 0x46464144u
 #define AGENTS_MAX 1000000u
 #define WALLS_MAX 1000000u
+#define STEP_MIN 1e-5      /* s: below that speeds, which are differences over a step, are noise */
 #define STEP_MAX 0.25      /* s: longer than that, people walk past each other unseen */
 #define PLANE_MAX 1e6      /* m: millimetres must survive in a double many times over */
 #define TOLERANCE_MIN 0.05 /* m */
@@ -89,10 +90,8 @@ static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, f
     if (def->max_walls > WALLS_MAX)
         return ff_fail(error, FF_ERR_RANGE, "max_walls is %u; expected at most %u", def->max_walls,
                        WALLS_MAX);
-    if (!(def->step > 0.0 && def->step <= STEP_MAX))
-        return ff_fail(error, FF_ERR_RANGE, "step is %g s; expected more than 0, at most %g", def->step,
-                       STEP_MAX);
-    return check_navigation_def(def, error);
+    ff_status status = check_between(def->step, STEP_MIN, STEP_MAX, "step (s)", error);
+    return status == FF_OK ? check_navigation_def(def, error) : status;
 }
 
 static size_t memory_needed(const ff_crowd_def *def)

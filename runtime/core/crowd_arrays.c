@@ -1,24 +1,30 @@
 #include "runtime/core/crowd_arrays.h"
 
+#include "runtime/core/crowd_check.h"
 #include "runtime/core/crowd_state.h"
 
 #include <string.h>
 
 #define ARRAY_ALIGN 64
 
-#define ROW(name, kind, member)                                                                              \
+#define ROW(name, kind, member, check)                                                                       \
     {                                                                                                        \
-        name, kind, offsetof(ff_crowd, member), sizeof *((ff_crowd *)0)->member, NULL                        \
+        name, kind, offsetof(ff_crowd, member), sizeof *((ff_crowd *)0)->member, NULL, check                 \
     }
 
 /* Of an array that not every crowd needs, write the row out, with a function for wanted. The order is that of the hash and of saved crowds. */
 static const ff_crowd_array arrays[] = {
-    ROW("SGEN", FF_ARRAY_SLOT, generation),      ROW("SLIV", FF_ARRAY_SLOT, alive),
-    ROW("SFRE", FF_ARRAY_SLOT, next_free),       ROW("TRAI", FF_ARRAY_AGENT, traits),
-    ROW("MIND", FF_ARRAY_AGENT, minds),          ROW("BODY", FF_ARRAY_AGENT, bodies),
-    ROW("VELO", FF_ARRAY_AGENT, velocity),       ROW("GAIT", FF_ARRAY_AGENT, gaits),
-    ROW("seen", FF_ARRAY_STEP, unsorted),        ROW("near", FF_ARRAY_STEP, neighbours),
-    ROW("nnbr", FF_ARRAY_STEP, neighbour_count),
+    ROW("SGEN", FF_ARRAY_SLOT, generation, NULL),
+    ROW("SLIV", FF_ARRAY_SLOT, alive, NULL),
+    ROW("SFRE", FF_ARRAY_SLOT, next_free, NULL),
+    ROW("TRAI", FF_ARRAY_AGENT, traits, ff_crowd_check_traits),
+    ROW("MIND", FF_ARRAY_AGENT, minds, ff_crowd_check_mind),
+    ROW("BODY", FF_ARRAY_AGENT, bodies, ff_crowd_check_body),
+    ROW("VELO", FF_ARRAY_AGENT, velocity, ff_crowd_check_velocity),
+    ROW("GAIT", FF_ARRAY_AGENT, gaits, ff_crowd_check_gait),
+    ROW("seen", FF_ARRAY_STEP, unsorted, NULL),
+    ROW("near", FF_ARRAY_STEP, neighbours, NULL),
+    ROW("nnbr", FF_ARRAY_STEP, neighbour_count, NULL),
 };
 
 uint32_t ff_crowd_array_count(void)

@@ -13,11 +13,14 @@ typedef enum ff_array_kind {
 
 /* One array of max_agents elements, zeroed at creation, on a 64-byte boundary. */
 typedef struct ff_crowd_array {
-    char name[8]; /* of the section in a saved crowd; four letters, unique */
+    char name[8]; /* of its section in a saved crowd; four letters, unique */
     ff_array_kind kind;
     size_t pointer;                          /* offsetof(ff_crowd, ...) of the pointer to the array */
     size_t size;                             /* bytes per element */
     bool (*wanted)(const ff_crowd_def *def); /* NULL: always. Where false the pointer stays NULL */
+    /* Of an agent's state: NULL, or what is wrong with an element that was read and at which of its bytes
+     * (crowd_check.h). */
+    const char *(*check)(const ff_crowd *crowd, const void *element, size_t *byte);
 } ff_crowd_array;
 
 uint32_t ff_crowd_array_count(void);

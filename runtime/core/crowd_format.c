@@ -1,0 +1,98 @@
+#include "runtime/core/crowd_format.h"
+
+#include <string.h>
+
+uint32_t ff_crowd_array_tag(const ff_crowd_array *array)
+{
+    uint32_t tag;
+    memcpy(&tag, array->name, sizeof tag);
+    return tag;
+}
+
+uint32_t ff_crowd_section_kinds(ff_section_kind kinds[FF_SECTIONS_MAX])
+{
+    uint32_t count = 0;
+    kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_HEAD, sizeof(ff_saved_head), 1, 1};
+    kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_DEF, sizeof(ff_saved_def), 1, 1};
+    kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_WALL, sizeof(ff_saved_wall), 0, 1};
+    for (uint32_t i = 0; i < ff_crowd_array_count(); ++i) {
+        const ff_crowd_array *array = ff_crowd_array_at(i);
+        if (array->kind == FF_ARRAY_STEP) continue;
+        kinds[count++] = (ff_section_kind){ff_crowd_array_tag(array), (uint32_t)array->size, 0, 0};
+    }
+    return count;
+}
+
+ff_section_format ff_crowd_file_format(const ff_section_kind *kinds, uint32_t count)
+{
+    return (ff_section_format){FF_CROWD_MAGIC,
+                               FF_CROWD_VERSION,
+                               kinds,
+                               count,
+                               "saved crowd",
+                               "FOOTDCRW",
+                               "make one with footfall-crowd run --save",
+                               "save it again with this program",
+                               "copy or save it again"};
+}
+
+/* ------------------------------------------------------------------------------------------- definition */
+
+/* A member more or less: save and load it here, then put the new size. */
+_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 128, "is all of a definition saved?");
+
+enum { MCN_PARTS = 11 };
+
+static void mcn_switches(ff_mcn_def *mcn, bool *out[MCN_PARTS])
+{
+    bool *all[MCN_PARTS] = {&mcn->hull,    &mcn->sharp_turn, &mcn->stance,  &mcn->forces,
+                            &mcn->density, &mcn->weighted,   &mcn->gradual, &mcn->back_pedal,
+                            &mcn->lean,    &mcn->progress,   &mcn->make_way};
+    memcpy(out, all, sizeof all);
+}
+
+ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
+{
+    ff_saved_def saved = {.step = def->step,
+                          .seed = def->seed,
+                          .max_agents = def->max_agents,
+                          .max_walls = def->max_walls,
+                          .navigation = def->navigation,
+                          .facing = def->mcn.facing,
+                          .model_velocity = def->baseline.model_velocity,
+                          .keep_right = def->keep_right,
+                          .padding = def->mcn.padding,
+                          .prediction = def->mcn.prediction,
+                          .baseline_keep_right = def->baseline.keep_right,
+                          .baseline_padding = def->baseline.padding};
+    ff_mcn_def mcn = def->mcn;
+    bool *parts[MCN_PARTS];
+    mcn_switches(&mcn, parts);
+    for (uint32_t i = 0; i < MCN_PARTS; ++i)
+        saved.mcn_parts |= (uint32_t)*parts[i] << i;
+    return saved;
+}
+
+bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
+{
+    if (saved->navigation > FF_NAVIGATION_SF || saved->facing > FF_FACING_COMMAND ||
+        saved->mcn_parts >> MCN_PARTS != 0 || saved->model_velocity > 1)
+        return false;
+    *out = ff_crowd_def_default();
+    out->max_agents = saved->max_agents;
+    out->max_walls = saved->max_walls;
+    out->step = saved->step;
+    out->seed = saved->seed;
+    out->keep_right = saved->keep_right;
+    out->navigation = (ff_navigation)saved->navigation;
+    out->baseline =
+        (ff_baseline_def){saved->baseline_keep_right, saved->baseline_padding, saved->model_velocity != 0};
+    bool *parts[MCN_PARTS];
+    mcn_switches(&out->mcn, parts);
+    for (uint32_t i = 0; i < MCN_PARTS; ++i)
+        *parts[i] = (saved->mcn_parts >> i & 1u) != 0;
+    out->mcn.facing = (ff_facing)saved->facing;
+    out->mcn.padding = saved->padding;
+    out->mcn.prediction = saved->prediction;
+    return true;
+}
