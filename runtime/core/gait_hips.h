@@ -22,4 +22,9 @@ double ff_gait_lack(ff_vec3 hip, ff_vec3 ankle, double reach);
 void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cursor *cursor, ff_vec2 position,
                         double heading, double dt);
 
+/* Hips and joints of somebody who just stands, idle_time into the idle motion, before the legs are solved to the feet. In
+ * gait_pose.c. */
+void ff_gait_idle_pose(const ff_blend_space *space, double idle_time, ff_vec2 position, double heading,
+                       ff_vec3 *hips, ff_quat *rotations);
+
 #endif

@@ -1,9 +1,12 @@
 /* gait_pose.c - the joints of a gait's present state. */
 #include "runtime/core/gait_hips.h"
-#include "runtime/core/leg_ik.h"
+#include "runtime/core/leg_pose.h"
+
+#include <string.h>
 
 #define BREATH (0.7 * FF_DEG)
 #define LOOK (5.0 * FF_DEG)
+#define MOST_RAISE (60.0 * FF_DEG) /* of a heel, for a planted foot to be in reach */
 #define TOE_CLEARANCE 0.015 /* m, over the rest height of the toe tip (gait facts: people 1.4 to 2.3 cm) */
 
 /* Blended local rotations of everything but the hips, the idle pose mixed in while standing. */
@@ -66,71 +69,28 @@ static ff_quat foot_rotation(const ff_gait_foot *state, ff_quat clip)
     return ff_quat_nlerp(flat, free, share);
 }
 
-/* A planted foot out of reach lifts its heel about the ball before anything slides: by the least angle that brings the
- * ankle within reach, found by bisection. */
-static ff_quat heel_in_reach(const ff_body_frame *body, const ff_gait_foot *state, int foot, ff_vec3 hip,
-                             ff_quat rotation, double reach)
-{
-    ff_vec3 lateral = ff_v3(ff_cos(state->now.yaw), 0.0, -ff_sin(state->now.yaw));
-    double low = 0.0, high = 60.0 * FF_DEG;
-    for (int i = 0; i < 12; ++i) {
-        double middle = 0.5 * (low + high);
-        ff_quat raised = ff_quat_mul(ff_quat_axis(lateral, middle), rotation);
-        ff_vec3 ankle = ff_gait_ankle(body, foot, state->now, raised);
-        if (ff_length3(ff_sub3(ankle, hip)) <= reach) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    return ff_quat_mul(ff_quat_axis(lateral, high), rotation);
-}
-
-/* Toes bend up where the floor is in their way: at push-off, and in mid swing to keep clear of it. */
-static ff_quat toes_on_floor(const ff_body_frame *body, const ff_gait_foot *state, int foot,
-                             ff_quat foot_turn, ff_quat toes)
-{
-    ff_vec3 tip = ff_quat_rotate(foot_turn, ff_quat_rotate(toes, body->toe[foot]));
-    double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
-    double least = body->ball_rest + body->toe[foot].y + TOE_CLEARANCE * arc - state->now.height;
-    if (tip.y >= least) return toes;
-    double ahead = tip.z * ff_cos(state->now.yaw) + tip.x * ff_sin(state->now.yaw);
-    double length = sqrt(ahead * ahead + tip.y * tip.y);
-    double wanted = 0.5 * FF_PI - ff_acos(least / ff_max(length, 1e-6));
-    double up = ff_clamp(wanted - ff_atan2(tip.y, ahead), 0.0, 80.0 * FF_DEG);
-    return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), toes);
-}
-
-static ff_leg leg_of_clip(const ff_body_frame *body, ff_vec3 hips, ff_quat hips_turn,
-                          const ff_quat *rotations, int joint)
-{
-    ff_leg leg;
-    leg.hip = ff_add3(hips, ff_quat_rotate(hips_turn, body->offset[joint]));
-    leg.thigh = ff_quat_mul(hips_turn, rotations[joint]);
-    leg.knee = ff_add3(leg.hip, ff_quat_rotate(leg.thigh, body->offset[joint + 1]));
-    leg.shank = ff_quat_mul(leg.thigh, rotations[joint + 1]);
-    leg.ankle = ff_add3(leg.knee, ff_quat_rotate(leg.shank, body->offset[joint + 2]));
-    leg.foot = ff_quat_mul(leg.shank, rotations[joint + 2]);
-    return leg;
-}
-
 static void pose_leg(const ff_body_frame *body, const ff_gait_foot *state, int foot, ff_vec3 hips,
                      ff_quat hips_turn, ff_quat *rotations)
 {
-    int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
-    ff_leg leg = leg_of_clip(body, hips, hips_turn, rotations, joint);
-    double reach = FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]);
-    leg.foot = foot_rotation(state, leg.foot);
-    ff_vec3 ankle = ff_gait_ankle(body, foot, state->now, leg.foot);
-    if (state->planted && ff_length3(ff_sub3(ankle, leg.hip)) > reach) {
-        leg.foot = heel_in_reach(body, state, foot, leg.hip, leg.foot, reach);
-        ankle = ff_gait_ankle(body, foot, state->now, leg.foot);
-    }
-    ff_leg_solve(&leg, leg.hip, ankle);
-    rotations[joint] = ff_quat_mul(ff_quat_conj(hips_turn), leg.thigh);
-    rotations[joint + 1] = ff_quat_mul(ff_quat_conj(leg.thigh), leg.shank);
-    rotations[joint + 2] = ff_quat_mul(ff_quat_conj(leg.shank), leg.foot);
-    rotations[joint + 3] = toes_on_floor(body, state, foot, leg.foot, rotations[joint + 3]);
+    ff_leg leg = ff_leg_of_clip(body, foot, hips, hips_turn, rotations);
+    double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
+    ff_leg_target target = {state->now, foot_rotation(state, leg.foot), TOE_CLEARANCE * arc, MOST_RAISE,
+                            state->planted ? 1.0 : 0.0};
+    ff_leg_pose(body, foot, &target, &leg, hips_turn, rotations);
+}
+
+void ff_gait_idle_pose(const ff_blend_space *space, double idle_time, ff_vec2 position, double heading,
+                       ff_vec3 *hips, ff_quat *rotations)
+{
+    ff_gait gait;
+    memset(&gait, 0, sizeof gait);
+    gait.stand = 1.0;
+    gait.idle_time = idle_time;
+    ff_blend_find(space, gait.rates, &gait.blend);
+    ff_cursor cursor = ff_cursor_at(space, &gait.blend, 0.0, idle_time);
+    ff_gait_hips(space, &gait, &cursor, position, heading, hips, &rotations[FF_JOINT_HIPS]);
+    sample_joints(space, &gait, &cursor, rotations);
+    apply_idle_life(&gait, rotations);
 }
 
 void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 position, double heading,

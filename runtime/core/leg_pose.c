@@ -1,0 +1,72 @@
+#include "runtime/core/leg_pose.h"
+
+#include "runtime/core/gait_hips.h"
+
+/* A planted foot out of reach lifts its heel about the ball before anything slides: by the least angle that brings the
+ * ankle within reach, found by bisection. */
+static ff_quat heel_in_reach(const ff_body_frame *body, ff_foothold ball, int foot, ff_vec3 hip,
+                             ff_quat rotation, double reach, double most)
+{
+    ff_vec3 lateral = ff_v3(ff_cos(ball.yaw), 0.0, -ff_sin(ball.yaw));
+    double low = 0.0, high = most;
+    for (int i = 0; i < 12; ++i) {
+        double middle = 0.5 * (low + high);
+        ff_quat raised = ff_quat_mul(ff_quat_axis(lateral, middle), rotation);
+        ff_vec3 ankle = ff_gait_ankle(body, foot, ball, raised);
+        if (ff_length3(ff_sub3(ankle, hip)) <= reach) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return ff_quat_mul(ff_quat_axis(lateral, high), rotation);
+}
+
+/* Toes bend up where the floor is in their way: at push-off, and in mid swing to keep clear of it. */
+static ff_quat toes_on_floor(const ff_body_frame *body, const ff_leg_target *target, int foot,
+                             ff_quat foot_turn, ff_quat toes)
+{
+    ff_vec3 tip = ff_quat_rotate(foot_turn, ff_quat_rotate(toes, body->toe[foot]));
+    ff_foothold ball = target->ball;
+    double least = body->ball_rest + body->toe[foot].y + target->clearance - ball.height;
+    if (tip.y >= least) return toes;
+    double ahead = tip.z * ff_cos(ball.yaw) + tip.x * ff_sin(ball.yaw);
+    double length = sqrt(ahead * ahead + tip.y * tip.y);
+    double wanted = 0.5 * FF_PI - ff_acos(least / ff_max(length, 1e-6));
+    double up = ff_clamp(wanted - ff_atan2(tip.y, ahead), 0.0, 80.0 * FF_DEG);
+    return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), toes);
+}
+
+ff_leg ff_leg_of_clip(const ff_body_frame *body, int foot, ff_vec3 hips, ff_quat hips_turn,
+                      const ff_quat *rotations)
+{
+    int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
+    ff_leg leg;
+    leg.hip = ff_add3(hips, ff_quat_rotate(hips_turn, body->offset[joint]));
+    leg.thigh = ff_quat_mul(hips_turn, rotations[joint]);
+    leg.knee = ff_add3(leg.hip, ff_quat_rotate(leg.thigh, body->offset[joint + 1]));
+    leg.shank = ff_quat_mul(leg.thigh, rotations[joint + 1]);
+    leg.ankle = ff_add3(leg.knee, ff_quat_rotate(leg.shank, body->offset[joint + 2]));
+    leg.foot = ff_quat_mul(leg.shank, rotations[joint + 2]);
+    return leg;
+}
+
+void ff_leg_pose(const ff_body_frame *body, int foot, const ff_leg_target *target, ff_leg *leg,
+                 ff_quat hips_turn, ff_quat *rotations)
+{
+    int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
+    double reach = FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]);
+    leg->foot = target->turn;
+    ff_vec3 ankle = ff_gait_ankle(body, foot, target->ball, leg->foot);
+    if (target->grip > 0.0 && ff_length3(ff_sub3(ankle, leg->hip)) > reach) {
+        ff_quat raised =
+            heel_in_reach(body, target->ball, foot, leg->hip, leg->foot, reach, target->most_raise);
+        leg->foot = target->grip < 1.0 ? ff_quat_nlerp(leg->foot, raised, target->grip) : raised;
+        ankle = ff_gait_ankle(body, foot, target->ball, leg->foot);
+    }
+    ff_leg_solve(leg, leg->hip, ankle);
+    rotations[joint] = ff_quat_mul(ff_quat_conj(hips_turn), leg->thigh);
+    rotations[joint + 1] = ff_quat_mul(ff_quat_conj(leg->thigh), leg->shank);
+    rotations[joint + 2] = ff_quat_mul(ff_quat_conj(leg->shank), leg->foot);
+    rotations[joint + 3] = toes_on_floor(body, target, foot, leg->foot, rotations[joint + 3]);
+}
