@@ -154,6 +154,15 @@ typedef enum ff_facing {
     FF_FACING_COMMAND,   /* where one goes */
 } ff_facing;
 
+/* What the body walks by (FbCrowd, section 5). Whatever is chosen, who prefers more than 2.2 m/s runs where the pack has
+ * runs and there is room. */
+typedef enum ff_synthesis {
+    FF_SYNTHESIS_CROWD,           /* of an agent: as its crowd's definition says. Of a crowd: blending */
+    FF_SYNTHESIS_BLENDING,        /* examples, blended: natural, at the velocities between them */
+    FF_SYNTHESIS_SEMI_PROCEDURAL, /* one clip, deformed: exactly the velocity that is asked for */
+    FF_SYNTHESIS_HYBRID,          /* the former, and the latter when a collision is near or it is dense */
+} ff_synthesis;
+
 /* The parts of motion-constrained navigation, each with a switch (runtime/README.md says where each comes from). */
 typedef struct ff_mcn_def {
     bool hull;       /* velocities outside the hull of the walking examples are forbidden (eq 2-5) */
@@ -191,6 +200,7 @@ typedef struct ff_crowd_def {
     double keep_right;        /* rad, by which people turn aside for those they meet; default 0.30, negative =
                                to the left. 0 makes them meet head on and jam: a convention is needed */
     ff_navigation navigation; /* of agents that do not name their own */
+    ff_synthesis synthesis;   /* likewise */
     ff_mcn_def mcn;
     ff_baseline_def baseline;
     uint32_t cookie; /* set by ff_crowd_def_default(); leave it alone */
@@ -201,9 +211,10 @@ typedef struct ff_agent_def {
     double heading;         /* rad */
     ff_vec2 goal;           /* m; the agent stops and stands within goal_tolerance of it */
     double goal_tolerance;  /* m, default 0.5 */
-    double preferred_speed; /* m/s, default 1.3 */
+    double preferred_speed; /* m/s, 0.1 to 4, default 1.3; above 2.2 it runs */
     double radius;          /* m, default 0.3 */
     ff_navigation navigation;
+    ff_synthesis synthesis;
     uint32_t cookie; /* set by ff_agent_def_default() */
 } ff_agent_def;
 
@@ -244,6 +255,8 @@ ff_status ff_crowd_load(const ff_pack *pack, const void *data, size_t size, cons
 ff_status ff_crowd_load_file(const ff_pack *pack, const char *path, const ff_crowd_def *run, ff_crowd **out,
                              ff_error *error);
 
+enum { FF_WAY_BLENDING, FF_WAY_SEMI_PROCEDURAL, FF_WAY_RUNNING };
+
 typedef struct ff_agent_state {
     ff_vec2 position;   /* m, root and disc */
     ff_vec2 velocity;   /* m/s, of the root over the last step */
@@ -254,11 +267,21 @@ typedef struct ff_agent_state {
     double radius;      /* m */
     uint8_t reached;    /* 1: stands at its goal */
     uint8_t planted[2]; /* left, right: the foot is locked to the ground */
-    uint8_t reserved[5];
+    uint8_t way;        /* FF_WAY_*: what it moves by now */
+    uint8_t reserved[4];
 } ff_agent_state;
 
 /* State of a live agent. Fails with FF_ERR_ARGUMENT for a stale handle. */
 ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_state *out, ff_error *error);
+
+/* By which ways an agent (or, agent {0, 0}, all that live) has moved since it came: seconds in each, how often it has
+ * changed, and how often because it had to. */
+typedef struct ff_synthesis_counts {
+    double blending_s, semi_procedural_s, running_s;
+    uint64_t transitions, urgent;
+} ff_synthesis_counts;
+ff_status ff_crowd_synthesis_counts(const ff_crowd *crowd, ff_agent agent, ff_synthesis_counts *out,
+                                    ff_error *error);
 
 /* Handles of all live agents in slot order. Writes at most capacity, returns how many there are. */
 uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity);

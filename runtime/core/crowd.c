@@ -25,6 +25,7 @@ ff_crowd_def ff_crowd_def_default(void)
                           .threads = 1,
                           .keep_right = 0.30,
                           .navigation = FF_NAVIGATION_MCN,
+                          .synthesis = FF_SYNTHESIS_BLENDING,
                           .mcn = {.hull = true,
                                   .sharp_turn = true,
                                   .stance = true,
@@ -60,9 +61,16 @@ static ff_status check_navigation(ff_navigation navigation, ff_error *error)
     return ff_fail(error, FF_ERR_RANGE, "navigation is %d; expected one of FF_NAVIGATION_*", (int)navigation);
 }
 
+static ff_status check_synthesis(ff_synthesis synthesis, ff_error *error)
+{
+    if (synthesis >= FF_SYNTHESIS_CROWD && synthesis <= FF_SYNTHESIS_HYBRID) return FF_OK;
+    return ff_fail(error, FF_ERR_RANGE, "synthesis is %d; expected one of FF_SYNTHESIS_*", (int)synthesis);
+}
+
 static ff_status check_navigation_def(const ff_crowd_def *def, ff_error *error)
 {
     ff_status status = check_navigation(def->navigation, error);
+    if (status == FF_OK) status = check_synthesis(def->synthesis, error);
     if (status == FF_OK)
         status = check_between(def->keep_right, -0.5 * FF_PI, 0.5 * FF_PI, "keep_right (rad)", error);
     if (status == FF_OK)
@@ -131,6 +139,21 @@ static ff_status make_hull(ff_crowd *crowd, ff_error *error)
     return FF_OK;
 }
 
+/* The semi-procedural clip's ellipses; FF_HULL_MAX corners at most, forwards only unless back-pedalling is allowed. */
+static void make_clip_hull(ff_crowd *crowd)
+{
+    ff_pack_point2 points[FF_HULL_MAX];
+    bool back = crowd->def.mcn.back_pedal;
+    for (int i = 0; i < FF_HULL_MAX; ++i) {
+        double part = (double)i / (back ? FF_HULL_MAX : FF_HULL_MAX - 1),
+               angle = (back ? FF_TAU : FF_PI) * part;
+        ff_vec2 at = ff_fwd2(angle - 0.5 * FF_PI);
+        double ahead = at.a < 0.0 ? FF_MODEL_BACKWARD : FF_MODEL_FORWARD;
+        points[i] = (ff_pack_point2){(float)(ahead * at.a), (float)(FF_MODEL_SIDEWAYS * at.b)};
+    }
+    ff_hull_make(points, FF_HULL_MAX, &crowd->clip_hull);
+}
+
 ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd **out, ff_error *error)
 {
     if (!out) return ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the crowd");
@@ -142,6 +165,9 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     crowd->pack = pack;
     crowd->def = *def;
     if (def->navigation == FF_NAVIGATION_CROWD) crowd->def.navigation = FF_NAVIGATION_MCN;
+    if (def->synthesis == FF_SYNTHESIS_CROWD)
+        crowd->def.synthesis = ff_crowd_def_default().synthesis;
+    make_clip_hull(crowd);
     status = make_hull(crowd, error);
     if (status == FF_OK) status = ff_blend_space_create(pack, &crowd->space, error);
     if (status == FF_OK && !def->tasks) status = ff_tasks_create(def->threads, &crowd->own_tasks, error);
@@ -193,6 +219,7 @@ static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
     if (status == FF_OK) status = check_between(def->preferred_speed, 0.1, 4.0, "preferred_speed", error);
     if (status == FF_OK) status = check_between(def->radius, 0.05, 1.5, "radius", error);
     if (status == FF_OK) status = check_navigation(def->navigation, error);
+    if (status == FF_OK) status = check_synthesis(def->synthesis, error);
     return status;
 }
 
@@ -222,12 +249,15 @@ ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent 
     ff_random random = {crowd->def.seed, slot, (uint64_t)generation << 8};
     double heading = ff_wrap(def->heading);
     ff_navigation navigation = def->navigation ? def->navigation : crowd->def.navigation;
+    ff_synthesis synthesis = def->synthesis ? def->synthesis : crowd->def.synthesis;
     crowd->traits[slot] = (ff_traits){.goal = def->goal,
                                       .goal_tolerance = def->goal_tolerance,
                                       .preferred_speed = def->preferred_speed,
                                       .radius = def->radius,
-                                      .navigation = navigation};
+                                      .navigation = navigation,
+                                      .synthesis = synthesis};
     crowd->minds[slot] = ff_mind_new(heading);
+    crowd->choices[slot] = (ff_choice){0.0, 0, 0};
     crowd->bodies[slot] =
         (ff_body){.position = def->position, .heading = heading, .phase = ff_random_unit(&random)};
     crowd->velocity[slot] = ff_v2(0.0, 0.0);
@@ -318,16 +348,39 @@ ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_s
     const ff_gait *gait = &crowd->gaits[agent.slot];
     bool still = ff_length2(crowd->velocity[agent.slot]) <= STILL;
     bool near = ff_length2(ff_sub2(traits->goal, body->position)) <= traits->goal_tolerance;
-    *out =
-        (ff_agent_state){.position = body->position,
-                         .velocity = crowd->velocity[agent.slot],
-                         .heading = body->heading,
-                         .turn_rate = body->rates.turn,
-                         .command = mind->command,
-                         .goal = traits->goal,
-                         .radius = traits->radius,
-                         .reached = mind->standing && near && still,
-                         .planted = {(uint8_t)ff_gait_planted(gait, 0), (uint8_t)ff_gait_planted(gait, 1)}};
+    *out = (ff_agent_state){.position = body->position,
+                            .velocity = crowd->velocity[agent.slot],
+                            .heading = body->heading,
+                            .turn_rate = body->rates.turn,
+                            .command = mind->command,
+                            .goal = traits->goal,
+                            .radius = traits->radius,
+                            .reached = mind->standing && near && still,
+                            .planted = {(uint8_t)ff_gait_planted(gait, 0), (uint8_t)ff_gait_planted(gait, 1)},
+                            .way = (uint8_t)gait->blend.way};
+    return FF_OK;
+}
+
+static void add_counts(const ff_gait *gait, ff_synthesis_counts *out)
+{
+    out->blending_s += gait->seconds[FF_BLENDING];
+    out->semi_procedural_s += gait->seconds[FF_SEMI_PROCEDURAL];
+    out->running_s += gait->seconds[FF_RUNNING];
+    out->transitions += gait->switches;
+    out->urgent += gait->urgent_switches;
+}
+
+ff_status ff_crowd_synthesis_counts(const ff_crowd *crowd, ff_agent agent, ff_synthesis_counts *out,
+                                    ff_error *error)
+{
+    bool all = crowd && agent.slot == 0 && agent.generation == 0;
+    ff_status status = all ? FF_OK : check_agent(crowd, agent, error);
+    if (status == FF_OK && !out) status = ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the counts");
+    if (status != FF_OK) return status;
+    *out = (ff_synthesis_counts){0.0, 0.0, 0.0, 0, 0};
+    if (!all) add_counts(&crowd->gaits[agent.slot], out);
+    for (uint32_t slot = 0; all && slot < crowd->slot_count; ++slot)
+        if (crowd->alive[slot]) add_counts(&crowd->gaits[slot], out);
     return FF_OK;
 }
 

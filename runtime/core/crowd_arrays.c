@@ -22,6 +22,7 @@ static const ff_crowd_array arrays[] = {
     ROW("BODY", FF_ARRAY_AGENT, bodies, ff_crowd_check_body),
     ROW("VELO", FF_ARRAY_AGENT, velocity, ff_crowd_check_velocity),
     ROW("GAIT", FF_ARRAY_AGENT, gaits, ff_crowd_check_gait),
+    ROW("CHOI", FF_ARRAY_AGENT, choices, ff_crowd_check_choice),
     ROW("seen", FF_ARRAY_STEP, unsorted, NULL),
     ROW("near", FF_ARRAY_STEP, neighbours, NULL),
     ROW("nnbr", FF_ARRAY_STEP, neighbour_count, NULL),

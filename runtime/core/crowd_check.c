@@ -52,6 +52,18 @@ const char *ff_crowd_check_traits(const ff_crowd *crowd, const void *element, si
     if (!MEMBER_FITS(ff_traits, radius, 1e-3, 10.0)) return "a radius is out of range";
     if (traits->navigation <= FF_NAVIGATION_CROWD || traits->navigation > FF_NAVIGATION_SF)
         REFUSE_MEMBER(ff_traits, navigation, "a method of navigation is none");
+    if (traits->synthesis <= FF_SYNTHESIS_CROWD || traits->synthesis > FF_SYNTHESIS_HYBRID)
+        REFUSE_MEMBER(ff_traits, synthesis, "a method of synthesis is none");
+    return NULL;
+}
+
+const char *ff_crowd_check_choice(const ff_crowd *crowd, const void *element, size_t *byte)
+{
+    (void)crowd;
+    const ff_choice *choice = element;
+    if (!MEMBER_FITS(ff_choice, calm, 0.0, NUMBER_MAX)) return "a time of calm is negative or none";
+    if (choice->control > 1) REFUSE_MEMBER(ff_choice, control, "control is neither wanted nor not");
+    if (choice->runs > 1) REFUSE_MEMBER(ff_choice, runs, "somebody neither runs nor not");
     return NULL;
 }
 

@@ -58,6 +58,7 @@ ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
                           .max_agents = def->max_agents,
                           .max_walls = def->max_walls,
                           .navigation = def->navigation,
+                          .synthesis = def->synthesis,
                           .facing = def->mcn.facing,
                           .model_velocity = def->baseline.model_velocity,
                           .keep_right = def->keep_right,
@@ -75,8 +76,8 @@ ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
 
 bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
 {
-    if (saved->navigation > FF_NAVIGATION_SF || saved->facing > FF_FACING_COMMAND ||
-        saved->mcn_parts >> MCN_PARTS != 0 || saved->model_velocity > 1)
+    if (saved->navigation > FF_NAVIGATION_SF || saved->synthesis > FF_SYNTHESIS_HYBRID ||
+        saved->facing > FF_FACING_COMMAND || saved->mcn_parts >> MCN_PARTS != 0 || saved->model_velocity > 1)
         return false;
     *out = ff_crowd_def_default();
     out->max_agents = saved->max_agents;
@@ -85,6 +86,7 @@ bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
     out->seed = saved->seed;
     out->keep_right = saved->keep_right;
     out->navigation = (ff_navigation)saved->navigation;
+    out->synthesis = (ff_synthesis)saved->synthesis;
     out->baseline =
         (ff_baseline_def){saved->baseline_keep_right, saved->baseline_padding, saved->model_velocity != 0};
     bool *parts[MCN_PARTS];

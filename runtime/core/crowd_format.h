@@ -29,6 +29,7 @@ typedef struct ff_saved_def {
     uint32_t navigation, facing;
     uint32_t mcn_parts; /* bit n: the n-th switch of ff_mcn_def */
     uint32_t model_velocity;
+    uint32_t synthesis, unused;
     double keep_right;          /* rad */
     double padding, prediction; /* m, s */
     double baseline_keep_right, baseline_padding;

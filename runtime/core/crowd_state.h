@@ -11,6 +11,7 @@
 #include "runtime/core/body.h"
 #include "runtime/core/crowd_arrays.h"
 #include "runtime/core/nav.h"
+#include "runtime/core/synth_choice.h"
 #include "runtime/core/synth_state.h"
 
 struct ff_crowd {
@@ -20,6 +21,7 @@ struct ff_crowd {
     ff_tasks *own_tasks; /* NULL when the caller's scheduler is used */
     ff_arena arena;
     ff_hull hull;
+    ff_hull clip_hull; /* of those who walk on the semi-procedural clip */
     ff_walls walls;
     ff_grid grid;
     ff_crowd_timings timings;
@@ -36,6 +38,7 @@ struct ff_crowd {
     uint32_t *next_free; /* as free_first */
     ff_traits *traits;
     ff_mind *minds;
+    ff_choice *choices;
     ff_body *bodies;
     ff_vec2 *velocity; /* m/s, of the root over the last step */
     ff_gait *gaits;

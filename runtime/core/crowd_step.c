@@ -7,6 +7,8 @@
 
 #define CHUNK 16            /* agents per task */
 #define DOUBLE_SUPPORT 0.24 /* of a step */
+#define RUN_SUPPORT 0.4     /* of a running step: pushing off is over when the foot leaves, then it flies */
+#define WALLS_WITHIN 1.5    /* m: a second away for who walks fast */
 /* s: a low-pass as late as the displacement over 0.25 s (algorithms E, 9), for those who are not told the rates */
 #define SEEN_DELAY 0.125
 
@@ -88,8 +90,11 @@ static void navigate(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
     const ff_crowd_def *def = &crowd->def;
-    ff_nav_world world = {&crowd->grid, &crowd->walls,   &crowd->hull,    &def->mcn,
-                          def->step,    def->keep_right, def->mcn.padding};
+    bool clip = crowd->gaits[slot].blend.way == FF_SEMI_PROCEDURAL &&
+                crowd->traits[slot].preferred_speed <= FF_RUN_PREFERRED;
+    const ff_hull *hull = clip ? &crowd->clip_hull : &crowd->hull;
+    ff_nav_world world = {&crowd->grid,    &crowd->walls,   hull, &def->mcn, def->step,
+                          def->keep_right, def->mcn.padding};
     if (baseline(crowd, slot)) {
         world.keep_right = def->baseline.keep_right;
         world.padding = def->baseline.padding;
@@ -100,9 +105,38 @@ static void navigate(ff_crowd *crowd, uint32_t index)
                 &body, &crowd->minds[slot]);
 }
 
-static ff_rates clamp_to_examples(const void *space, ff_rates target)
+typedef struct gait_of {
+    const ff_blend_space *space;
+    const ff_gait *gait;
+} gait_of;
+
+static ff_rates clamp_to_gait(const void *context, ff_rates target)
 {
-    return ff_blend_clamp_turn(space, target);
+    const gait_of *of = context;
+    return ff_gait_clamp(of->space, of->gait, target);
+}
+
+/* By which way it shall move from now on (FbCrowd eq 1). */
+static void choose(ff_crowd *crowd, uint32_t index, const ff_wall *const *walls, uint32_t wall_count)
+{
+    const ff_seen *me = &crowd->grid.seen[index];
+    const ff_traits *traits = &crowd->traits[me->slot];
+    ff_gait *gait = &crowd->gaits[me->slot];
+    ff_choice_view view = {
+        .step = crowd->def.step,
+        .time = INFINITY,
+        .ahead = ff_dot2(crowd->minds[me->slot].command, ff_fwd2(crowd->bodies[me->slot].heading)),
+        .since_switch = gait->since_switch,
+        .hurries = traits->preferred_speed > FF_RUN_PREFERRED};
+    if (traits->synthesis == FF_SYNTHESIS_HYBRID) {
+        view.time =
+            ff_choice_time(me, crowd->neighbours[index], crowd->neighbour_count[index], walls, wall_count);
+        view.density = ff_choice_density(&crowd->grid, index);
+    }
+    bool urgent;
+    ff_locomotion way =
+        ff_choose_locomotion((ff_synthesis)traits->synthesis, &view, &crowd->choices[me->slot], &urgent);
+    ff_gait_want(crowd->space, gait, way, urgent);
 }
 
 /* Where in a step the legs are: 0 at a contact, DOUBLE_SUPPORT when the other foot leaves (key phases, synthesis study
@@ -111,6 +145,8 @@ static double step_phase(const ff_gait *gait)
 {
     if (gait->mode == FF_GAIT_STAND) return 0.0;
     double key = gait->phase - 2.0 * floor(0.5 * gait->phase);
+    if (gait->blend.way == FF_RUNNING)
+        return key < 1.0 ? RUN_SUPPORT * key : RUN_SUPPORT + (1.0 - RUN_SUPPORT) * (key - 1.0);
     return key < 1.0 ? DOUBLE_SUPPORT * key : DOUBLE_SUPPORT + (1.0 - DOUBLE_SUPPORT) * (key - 1.0);
 }
 
@@ -122,10 +158,12 @@ static void move(ff_crowd *crowd, uint32_t index)
     const ff_wall *walls[FF_NEAR_WALLS_MAX];
     double radius = crowd->traits[slot].radius, dt = crowd->def.step;
     ff_vec2 before = body->position;
-    ff_body_limits limits = {
-        clamp_to_examples, crowd->space, walls, 0, radius, crowd->def.mcn.back_pedal || mind->standing};
-    limits.wall_count = ff_walls_near(&crowd->walls, before, radius + 1.0, walls);
     ff_gait *gait = &crowd->gaits[slot];
+    gait_of of = {crowd->space, gait};
+    ff_body_limits limits = {
+        clamp_to_gait, &of, walls, 0, radius, crowd->def.mcn.back_pedal || mind->standing};
+    limits.wall_count = ff_walls_near(&crowd->walls, before, radius + WALLS_WITHIN, walls);
+    choose(crowd, index, walls, limits.wall_count);
     body->phase = step_phase(gait);
     ff_rates mean = ff_body_step(body, mind->command, mind->facing, dt, &limits);
     crowd->velocity[slot] = ff_scale2(ff_sub2(body->position, before), 1.0 / dt);

@@ -78,7 +78,7 @@ double ff_clip_phase(const ff_blend *clip, double fraction)
 /* The clip's trunk, arms and knees: those of its example at the same phase, read backwards by who goes backwards. */
 static void point_at_clip(const ff_blend_space *space, const ff_blend *clip, double phase, ff_cursor *cursor)
 {
-    const ff_blend_vertex *vertex = &space->vertices[clip->vertex[0]];
+    const ff_blend_vertex *vertex = &space->vertices[space->model.vertex];
     double at = fraction_at(vertex->key, phase), back = ff_gait_model_backward(clip->rates);
     double turned = vertex->key[3] - at;
     cursor->clip = clip;

@@ -118,7 +118,7 @@ static void walk(const ff_nav_view *view, ff_constraints *lines, ff_vec2 preferr
     ff_vec2 wish = mcn->forces ? adapt_by_forces(view, preferred) : preferred;
     if (mcn->density) wish = adapt_to_density(view, preferred, wish);
     ff_circle near = {mind->command, FF_COMMAND_CHANGE * step};
-    ff_circle wide = {ff_v2(0.0, 0.0), FF_SPEED_MAX};
+    ff_circle wide = {ff_v2(0.0, 0.0), view->speed_max};
     mind->command = ff_nav_solve(lines, mcn->gradual ? near : wide, wide, wish);
     mind->facing = ff_nav_facing((ff_facing_rule){mcn->facing, mcn->back_pedal}, preferred, mind->command,
                                  mind->facing, step, &mind->strafing);
@@ -129,6 +129,7 @@ void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *n
 {
     ff_nav_view view;
     ff_nav_look(world, self, neighbours, count, &view);
+    view.speed_max = ff_max(FF_SPEED_MAX, traits->preferred_speed);
     ff_vec2 preferred = ff_nav_preferred(world, self, neighbours, count, traits, mind);
     mind->preferred = preferred;
     bool constrained = traits->navigation == FF_NAVIGATION_MCN;

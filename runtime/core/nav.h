@@ -8,6 +8,9 @@
 #include "runtime/core/nav_stance.h"
 #include "runtime/core/nav_walls.h"
 
+/* Above this preferred speed (m/s) people run where they can. */
+#define FF_RUN_PREFERRED 2.2
+
 /* What does not change from step to step. */
 typedef struct ff_traits {
     ff_vec2 goal;           /* m */
@@ -15,7 +18,7 @@ typedef struct ff_traits {
     double preferred_speed; /* m/s */
     double radius;          /* m */
     uint32_t navigation;    /* FF_NAVIGATION_MCN, _ORCA or _SF */
-    uint32_t unused;
+    uint32_t synthesis;     /* FF_SYNTHESIS_BLENDING, _SEMI_PROCEDURAL or _HYBRID */
 } ff_traits;
 
 /* Walks to its goal; stands at it; stands as near to it as others let it. */

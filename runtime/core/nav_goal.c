@@ -3,6 +3,7 @@
 #include "runtime/core/nav_time.h"
 
 #define SLOW_DOWN 0.8 /* m before the goal */
+#define RUN_BRAKE 1.2 /* m/s^2, with which who runs there slows down to a walk */
 #define SLOW 0.25     /* m/s: who has braked to that within the tolerance stands */
 #define CREEP 0.15    /* m/s, least speed on the way: above the idle threshold of the body */
 #define LEAVE 0.3     /* m beyond the tolerance until one who was pushed away walks back at once */
@@ -112,6 +113,7 @@ ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neig
                              mind);
     }
     double fastest = traits->preferred_speed;
+    if (fastest > FF_RUN_PREFERRED) fastest = ff_min(fastest, sqrt(2.0 * RUN_BRAKE * distance));
     double speed = ff_max(fastest * ff_min(distance / SLOW_DOWN, 1.0), ff_min(CREEP, fastest));
     ff_vec2 preferred = ff_scale2(ff_unit2(to_goal), speed);
     return mind->detour_left > 0.0 ? turned(preferred, mind->detour) : preferred;

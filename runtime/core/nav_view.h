@@ -7,7 +7,7 @@
 
 #define FF_RELAXATION 0.54    /* s, of eq 9 */
 #define FF_HORIZON 2.5        /* s, of ORCA */
-#define FF_SPEED_MAX 2.2      /* m/s */
+#define FF_SPEED_MAX 2.2      /* m/s, of those who prefer no more */
 #define FF_COMMAND_CHANGE 2.0 /* m/s^2, of MCN */
 #define FF_COMMAND_STILL 0.05 /* m/s: a command below it has no direction */
 
@@ -18,6 +18,7 @@ typedef struct ff_nav_view {
     uint32_t neighbour_count;
     const ff_wall *walls[FF_NEAR_WALLS_MAX];
     uint32_t wall_count;
+    double speed_max; /* m/s, that may be asked for at all */
 } ff_nav_view;
 
 /* What ORCA is told of a pair. */

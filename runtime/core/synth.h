@@ -20,9 +20,9 @@ typedef struct ff_rates {
 /* What a body moves by. Walking examples, the semi-procedural clip and running examples are never mixed: one passes from
  * one to another within a step (gait_switch.h). */
 typedef enum ff_locomotion {
-    FF_BLENDING,        /* walking examples, blended */
-    FF_SEMI_PROCEDURAL, /* the semi-procedural clip at exactly the rates asked for */
-    FF_RUNNING,         /* running examples, blended */
+    FF_BLENDING,                                 /* walking examples, blended */
+    FF_SEMI_PROCEDURAL = FF_WAY_SEMI_PROCEDURAL, /* the semi-procedural clip at exactly the rates asked for */
+    FF_RUNNING = FF_WAY_RUNNING,                 /* running examples, blended */
     FF_LOCOMOTION_COUNT
 } ff_locomotion;
 

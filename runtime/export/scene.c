@@ -19,7 +19,7 @@ const char *ff_scene_kind_name(ff_scene_kind kind)
 
 #define COMMON_KEYS                                                                                          \
     "kind", "title", "seconds", "step", "seed", "at_goal", "agents", "agent_radius", "preferred_speed",      \
-        "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "mcn", "baseline"
+        "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "synthesis", "mcn", "baseline"
 
 static const char *const circle_keys[] = {COMMON_KEYS, "radius", "jitter", NULL};
 static const char *const two_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "distance", NULL};
@@ -29,8 +29,8 @@ static const char *const four_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "s
 static const char *const custom_keys[] = {COMMON_KEYS, NULL};
 static const char *const *const kind_keys[FF_SCENE_KIND_COUNT] = {
     circle_keys, two_way_keys, bidirectional_keys, four_way_keys, custom_keys};
-static const char *const agent_keys[] = {"position",   "goal", "heading_degrees", "preferred_speed", "radius",
-                                         "navigation", NULL};
+static const char *const agent_keys[] = {"position", "goal",       "heading_degrees", "preferred_speed",
+                                         "radius",   "navigation", "synthesis",       NULL};
 
 static ff_status read_kind(const ff_json *json, ff_scene_def *def, ff_error *error)
 {
@@ -160,6 +160,7 @@ static ff_status read_agent(const ff_json *json, const json_t *object, const ff_
     TRY(ff_json_number(json, object, "preferred_speed", 0.1, 5.0, &out->preferred_speed, error));
     TRY(ff_json_number(json, object, "radius", 0.1, 1.0, &out->radius, error));
     TRY(ff_scene_method_read(json, object, &out->navigation, error));
+    TRY(ff_scene_synthesis_read(json, object, &out->synthesis, error));
     ff_vec2 way = ff_sub2(out->goal, out->position);
     out->heading = isfinite(degrees) ? degrees * FF_DEG : ff_atan2(way.b, way.a);
     return status;

@@ -22,11 +22,13 @@ typedef struct ff_scene_agent {
     double goal_tolerance;  /* m */
     uint32_t group;         /* which block it starts in; on the circle its own number */
     ff_navigation navigation;
+    ff_synthesis synthesis;
 } ff_scene_agent;
 
-/* How everyone finds their way: the crowd's definition has the same members. */
+/* How everyone finds their way and walks: the crowd's definition has the same members. */
 typedef struct ff_scene_navigation {
     ff_navigation method;
+    ff_synthesis synthesis;
     double keep_right; /* rad, of MCN */
     ff_mcn_def mcn;
     ff_baseline_def baseline;
@@ -75,12 +77,15 @@ void ff_scene_def_free(ff_scene_def *def);
 ff_scene_def ff_scene_def_default(ff_scene_kind kind);
 
 const char *ff_navigation_name(ff_navigation navigation); /* as in files: "mcn" */
-/* The keys "navigation", "mcn" and "baseline" of a scene (scene_navigation.c). */
+const char *ff_synthesis_name(ff_synthesis synthesis);    /* "hybrid" */
+/* The keys "navigation", "synthesis", "mcn" and "baseline" of a scene (scene_navigation.c). */
 ff_scene_navigation ff_scene_navigation_default(void);
 ff_status ff_scene_navigation_read(const ff_json *json, ff_scene_navigation *out, ff_error *error);
-/* "navigation" of object, which may be the scene or one of its agents. */
+/* "navigation" and "synthesis" of object, which may be the scene or one of its agents. */
 ff_status ff_scene_method_read(const ff_json *json, const json_t *object, ff_navigation *out,
                                ff_error *error);
+ff_status ff_scene_synthesis_read(const ff_json *json, const json_t *object, ff_synthesis *out,
+                                  ff_error *error);
 
 /* Place everyone. Fails when two agents would start inside each other. */
 ff_status ff_scene_create(const ff_scene_def *def, ff_scene *out, ff_error *error);

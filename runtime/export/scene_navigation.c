@@ -5,6 +5,7 @@
 #include <string.h>
 
 static const char *const method_names[] = {"", "mcn", "orca", "sf", NULL};
+static const char *const synthesis_names[] = {"", "blending", "semi-procedural", "hybrid", NULL};
 static const char *const facing_names[] = {"halfway", "strafe", "preferred", "command", NULL};
 static const char *const mcn_keys[] = {
     "hull",     "sharp_turn", "stance",     "forces", "density",    "weighted", "gradual",    "lean",
@@ -16,10 +17,15 @@ const char *ff_navigation_name(ff_navigation navigation)
     return method_names[navigation];
 }
 
+const char *ff_synthesis_name(ff_synthesis synthesis)
+{
+    return synthesis_names[synthesis];
+}
+
 ff_scene_navigation ff_scene_navigation_default(void)
 {
     ff_crowd_def def = ff_crowd_def_default();
-    return (ff_scene_navigation){def.navigation, def.keep_right, def.mcn, def.baseline};
+    return (ff_scene_navigation){def.navigation, def.synthesis, def.keep_right, def.mcn, def.baseline};
 }
 
 /* Go on only while nothing went wrong. */
@@ -50,6 +56,16 @@ ff_status ff_scene_method_read(const ff_json *json, const json_t *object, ff_nav
     ff_status status =
         read_name(json, object, "navigation", method_names, "\"mcn\", \"orca\" or \"sf\"", &method, error);
     *out = (ff_navigation)method;
+    return status;
+}
+
+ff_status ff_scene_synthesis_read(const ff_json *json, const json_t *object, ff_synthesis *out,
+                                  ff_error *error)
+{
+    int synthesis = (int)*out;
+    ff_status status = read_name(json, object, "synthesis", synthesis_names,
+                                 "\"blending\", \"semi-procedural\" or \"hybrid\"", &synthesis, error);
+    *out = (ff_synthesis)synthesis;
     return status;
 }
 
@@ -88,6 +104,7 @@ ff_status ff_scene_navigation_read(const ff_json *json, ff_scene_navigation *out
 {
     const json_t *part = NULL;
     ff_status status = ff_scene_method_read(json, json->root, &out->method, error);
+    TRY(ff_scene_synthesis_read(json, json->root, &out->synthesis, error));
     TRY(read_mcn(json, out, error));
     TRY(read_part(json, "baseline", baseline_keys, &part, error));
     if (status != FF_OK || !part) return status;

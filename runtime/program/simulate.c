@@ -20,6 +20,7 @@ static ff_status populate(const ff_scene *scene, ff_crowd *crowd, ff_agent *hand
         def.preferred_speed = agents[i].preferred_speed;
         def.radius = agents[i].radius;
         def.navigation = agents[i].navigation;
+        def.synthesis = agents[i].synthesis;
         ff_status status = ff_crowd_add_agent(crowd, &def, &handles[i], error);
         if (status != FF_OK) return status;
     }
@@ -42,6 +43,7 @@ static ff_status create_crowd(const ff_simulation *simulation, ff_crowd **crowd,
     def.threads = simulation->threads;
     def.keep_right = scene->navigation.keep_right;
     def.navigation = scene->navigation.method;
+    def.synthesis = scene->navigation.synthesis;
     def.mcn = scene->navigation.mcn;
     def.baseline = scene->navigation.baseline;
     return ff_crowd_create(simulation->pack, &def, crowd, error);

@@ -227,6 +227,7 @@ static const bad_value bad_values[] = {
     {"CDEF", 0, WORD(ff_saved_def, max_agents, UINT32_MAX)},
     {"CDEF", 0, WORD(ff_saved_def, navigation, FF_NAVIGATION_SF + 1)},
     {"CDEF", 0, WORD(ff_saved_def, facing, 4)},
+    {"CDEF", 0, WORD(ff_saved_def, synthesis, 4)},
     {"CDEF", 0, WORD(ff_saved_def, mcn_parts, 1u << 11)},
     {"CDEF", 0, WORD(ff_saved_def, model_velocity, 2)},
     {"WALL", 1, REAL(ff_saved_wall, to.a, NOT_A_NUMBER)},
@@ -236,6 +237,7 @@ static const bad_value bad_values[] = {
     {"TRAI", 1, REAL(ff_traits, preferred_speed, BELOW_0)},
     {"TRAI", 1, REAL(ff_traits, radius, HUGE)},
     {"TRAI", 7, WORD(ff_traits, navigation, 0)},
+    {"TRAI", 7, WORD(ff_traits, synthesis, 0)},
     {"MIND", 0, REAL(ff_mind, command.a, NOT_A_NUMBER)},
     {"MIND", 0, REAL(ff_mind, preferred.b, HUGE)},
     {"MIND", 0, REAL(ff_mind, facing, NOT_A_NUMBER)},
@@ -277,6 +279,9 @@ static const bad_value bad_values[] = {
     {"GAIT", 4, REAL(ff_gait, seconds[2], NOT_A_NUMBER)},
     {"GAIT", 4, WORD(ff_gait, mode, 200)},
     {"GAIT", 4, WORD(ff_gait, first_foot, 2)},
+    {"CHOI", 4, REAL(ff_choice, calm, BELOW_0)},
+    {"CHOI", 4, WORD(ff_choice, control, 2)},
+    {"CHOI", 4, WORD(ff_choice, runs, 2)},
 };
 
 static void refuse(unsigned char *data, size_t size, const char *section, uint64_t byte)
