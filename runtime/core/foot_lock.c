@@ -1,6 +1,8 @@
 #include "runtime/core/foot_lock.h"
 
 #define SLOPE_LIMIT 0.6      /* m/s, study section 4.2 */
+#define SET_OFF_TIME 0.15    /* s, in which a foot that stood at rest takes up the swing */
+#define STOOD_TEMPO 0.35     /* of the steps' clock: slower is a first step */
 #define PLAN_SPEED 2.5       /* m/s, how fast a footprint may move early in swing; none at the end */
 #define PLAN_TURN 6.0        /* rad/s, the same for its yaw */
 #define CLOSE_UP_SPEED 0.25  /* m/s (turning counted as in the blend space) */
@@ -72,7 +74,8 @@ static ff_foothold subtract(ff_foothold p, ff_foothold q)
 static ff_foothold clip_foot_speed(const ff_foot_scene *scene, int foot, double phase, double time)
 {
     const double h = 0.02;
-    double later = ff_phase_advance(scene->space, scene->blend, phase, h);
+    double tempo = time > 0.0 ? scene->goal_tempo : scene->tempo;
+    double later = ff_phase_advance(scene->space, scene->blend, phase, h * tempo);
     ff_foothold step =
         subtract(clip_foot_later(scene, foot, later, time + h), clip_foot_later(scene, foot, phase, time));
     return (ff_foothold){step.a / h, step.b / h, step.height / h, step.yaw / h};
@@ -124,7 +127,11 @@ void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, dou
     double start, length;
     ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
     state->planted = 0;
+    state->stood = ff_max(standing, 1.0 - ff_smooth((scene->tempo - STOOD_TEMPO) / STOOD_TEMPO));
+    double pitch = state->pitch;
     ff_foot_hold(scene, state, foot, standing); /* the offsets below are between things of one moment */
+    state->pitch =
+        ff_lerp(state->pitch, pitch, state->stood); /* the clock of a first step has just jumped to it */
     state->from_pitch = state->pitch - ff_sample_foot(scene->space, scene->cursor, foot).pitch;
     state->from = subtract(state->now, ff_foot_of_clip(scene, foot));
     state->slope = standing_slope(clip_foot_speed(scene, foot, scene->phase, 0.0));
@@ -132,6 +139,8 @@ void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, dou
      * in the frame of the body. */
     state->from.yaw = ff_wrap(state->now.yaw - scene->heading);
     state->slope.yaw = -scene->rates.turn;
+    state->left = state->now;
+    state->left_pitch = state->pitch;
     state->elapsed = 0.0;
     state->progress = 0.0;
     state->phase_left = phase_to(scene->phase, start);
@@ -261,6 +270,19 @@ static void pass_beside(const ff_foot_scene *scene, ff_gait_foot *state, const f
     state->now.b += side * push * left.b;
 }
 
+/* A swing's beginning is that of a foot in motion. One that was at rest takes it up gradually, or its knee would jerk. */
+static void set_off(ff_gait_foot *state)
+{
+    double time = SET_OFF_TIME * state->stood;
+    if (state->elapsed >= time) return;
+    double rest = 1.0 - ff_smooth(state->elapsed / time);
+    state->now.a = ff_lerp(state->now.a, state->left.a, rest);
+    state->now.b = ff_lerp(state->now.b, state->left.b, rest);
+    state->now.height = ff_lerp(state->now.height, state->left.height, rest);
+    state->now.yaw += rest * ff_wrap(state->left.yaw - state->now.yaw);
+    state->pitch = ff_lerp(state->pitch, state->left_pitch, rest);
+}
+
 /* The foot now: the clip's, with an offset between that of the old lock and that of the new one. landing: the clip's
  * foot at the landing, time s from now. */
 static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot,
@@ -280,6 +302,7 @@ static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_f
     state->now.yaw =
         scene->heading + hermite(s, state->from.yaw, state->slope.yaw * span, to_yaw, -turn * span);
     state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
+    set_off(state);
     pass_beside(scene, state, other, foot);
     keep_clear(&scene->space->body, state, foot);
 }
@@ -291,8 +314,8 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     double left = phase_to(scene->phase, start);
     if (left > state->phase_left + 0.5) return true; /* the phase has passed the landing */
     state->phase_left = left;
-    double time =
-        ff_phase_duration(scene->space, scene->blend, scene->phase, scene->phase + left) / scene->tempo;
+    double whole = ff_phase_duration(scene->space, scene->blend, scene->phase, scene->phase + left);
+    double time = ff_max(whole / scene->goal_tempo + scene->delay, 0.5 * whole / scene->goal_tempo);
     bool first = state->elapsed == 0.0;
     state->elapsed += scene->dt;
     state->progress = ff_max(state->progress, state->elapsed / (state->elapsed + time));

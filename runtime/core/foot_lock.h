@@ -18,7 +18,9 @@ typedef struct ff_foot_scene {
     double phase;
     double idle_time;
     double dt;
-    double tempo; /* factor on phase speed */
+    double tempo;      /* factor on phase speed, now */
+    double goal_tempo; /* ... and soon, */
+    double delay;      /* s, that is lost until then */
 } ff_foot_scene;
 
 /* Where the root will be after time s if it goes on as it does now: braking to a stop, or speeding up for a while. */

@@ -24,6 +24,8 @@
 #define STRETCH_TO 0.30   /* ... to the most, and the foot steps as soon as the other stands */
 #define MOST_TEMPO 1.5
 #define STRETCH_YAW (40.0 * FF_DEG)
+#define PACE_TIME 0.08  /* s, in which the clock of the steps takes up a new pace ... */
+#define FIRST_PACE 0.2  /* ... and what it begins with: a foot that has stood sets off slowly */
 #define LEAST_SWING 0.3 /* u: a swing that would be shorter is left out */
 
 size_t ff_gait_size(void)
@@ -72,7 +74,8 @@ static ff_foot_scene scene_of(const ff_blend_space *space, const ff_gait *gait, 
                            .phase = gait->phase,
                            .idle_time = gait->idle_time,
                            .dt = dt,
-                           .tempo = 1.0};
+                           .tempo = 1.0,
+                           .goal_tempo = 1.0};
 }
 
 void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
@@ -151,6 +154,7 @@ static void begin_stepping(const ff_foot_scene *scene, ff_gait *gait)
     int foot = choose_first_foot(scene, gait);
     ff_blend_lock(scene->space, &gait->blend, foot, &start, &length);
     gait->phase = ff_phase_wrap(start + length);
+    gait->pace = FIRST_PACE;
     gait->mode = FF_GAIT_STEP;
 }
 
@@ -165,10 +169,18 @@ static double stretch(const ff_foot_scene *scene, const ff_gait *gait, int foot)
     return ff_clamp(ff_max(far, fabs(ff_wrap(state->lock.yaw - clip.yaw)) / STRETCH_YAW - 1.0), 0.0, 1.0);
 }
 
+/* Walking, one foot is always down: it stands, or its heel has struck (key 0 left, key 2 right) and it is coming flat. Fast
+ * walkers leave the ground with one foot before the other is flat; who comes to a stand does not. */
+static bool is_down(const ff_foot_scene *scene, const ff_gait *gait, int foot)
+{
+    if (gait->foot[foot].planted) return true;
+    if (ff_foot_closing(scene->rates) > 0.0) return false;
+    return ff_phase_wrap(gait->phase - 2.0 * foot) < 1.0 && gait->foot[foot].progress > 0.5;
+}
+
 static bool time_to_lift(const ff_foot_scene *scene, const ff_gait *gait, int foot)
 {
-    if (!gait->foot[1 - foot].planted && gait->blend.way != FF_RUNNING)
-        return false; /* walking: one foot is always down */
+    if (gait->blend.way != FF_RUNNING && !is_down(scene, gait, 1 - foot)) return false;
     double start, length;
     ff_blend_lock(scene->space, &gait->blend, foot, &start, &length);
     double since = ff_phase_wrap(scene->phase - start);
@@ -194,13 +206,14 @@ static void add_offset(const ff_foot_scene *scene, const ff_pose_offset *offset,
 static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
 {
     ff_gait_foot *state = &gait->foot[foot];
-    if (state->planted && gait->mode == FF_GAIT_STEP && time_to_lift(scene, gait, foot))
-        ff_foot_lift(scene, state, foot, ff_smooth(gait->stand));
-    if (state->planted) {
-        ff_foot_hold(scene, state, foot, ff_smooth(gait->stand));
+    double flat = ff_smooth(gait->stand / SETTLED); /* who may step again stands on flat feet */
+    if (state->planted && gait->mode == FF_GAIT_STEP && time_to_lift(scene, gait, foot)) {
+        ff_foot_lift(scene, state, foot, flat); /* where it stands: it moves from the next step on */
+    } else if (state->planted) {
+        ff_foot_hold(scene, state, foot, flat);
     } else if (ff_foot_swing(scene, state, &gait->foot[1 - foot], foot)) {
         ff_foot_land(state, scene->space->body.ball_rest);
-        ff_foot_hold(scene, state, foot, ff_smooth(gait->stand));
+        ff_foot_hold(scene, state, foot, flat);
     }
     add_offset(scene, &gait->offset, state, foot);
 }
@@ -211,6 +224,20 @@ static void follow_rates(ff_gait *gait, ff_rates rates, double dt)
     gait->rates.forward += share * (rates.forward - gait->rates.forward);
     gait->rates.left += share * (rates.left - gait->rates.left);
     gait->rates.turn += share * (rates.turn - gait->rates.turn);
+}
+
+/* The clock of the steps: hurries when the body leaves its feet behind, and takes up its pace gradually. */
+static void advance_phase(const ff_blend_space *space, ff_gait *gait, ff_foot_scene *scene)
+{
+    double most = ff_max(stretch(scene, gait, 0), stretch(scene, gait, 1));
+    double hurry = ff_max(ff_smooth(most), 0.7 * ff_foot_closing(scene->rates));
+    double goal = (1.0 + (MOST_TEMPO - 1.0) * hurry) / gait->style.cadence;
+    gait->pace += (1.0 - ff_exp(-scene->dt / PACE_TIME)) * (goal - gait->pace);
+    gait->phase = ff_phase_advance(space, &gait->blend, gait->phase, scene->dt * gait->pace);
+    scene->phase = gait->phase;
+    scene->tempo = gait->pace;
+    scene->goal_tempo = goal;
+    scene->delay = PACE_TIME * (1.0 - gait->pace / goal);
 }
 
 static void change_mode(const ff_foot_scene *scene, ff_gait *gait)
@@ -237,12 +264,8 @@ void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_r
     ff_foot_scene scene = scene_of(space, gait, &cursor, position, heading, rates, dt);
     change_mode(&scene, gait);
     if (gait->mode == FF_GAIT_STEP) {
-        double most = ff_max(stretch(&scene, gait, 0), stretch(&scene, gait, 1));
-        double hurry = ff_max(ff_smooth(most), 0.7 * ff_foot_closing(rates));
-        scene.tempo = (1.0 + (MOST_TEMPO - 1.0) * hurry) / gait->style.cadence;
-        gait->phase = ff_phase_advance(space, &gait->blend, gait->phase, dt * scene.tempo);
+        advance_phase(space, gait, &scene);
         cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
-        scene.phase = gait->phase;
     }
     double toward = gait->mode == FF_GAIT_STAND ? dt / STAND_TIME : -dt / STAND_TIME;
     gait->stand = ff_clamp(gait->stand + toward, 0.0, 1.0);

@@ -4,7 +4,8 @@
 
 #define SWAY_AHEAD 0.004 /* m, of standing hips */
 #define SWAY_ASIDE 0.008
-#define MOST_DROP 0.12 /* m */
+#define MOST_DROP 0.12   /* m */
+#define LANDING_SEEN 0.5 /* of the swing, from where on hips are lowered for its end */
 #define DROP_FREQUENCY                                                                                       \
     14.0 /* rad/s, of the critically damped follower (about 0.2 s to settle; study, section 4.5) */
 
@@ -60,6 +61,20 @@ double ff_gait_lack(ff_vec3 hip, ff_vec3 ankle, double reach)
     return hip.y - ankle.y - sqrt(ff_max(reach * reach - x * x - z * z, 0.0));
 }
 
+/* Whether the leg will reach where its swing ends: known before it gets there, so that the hips are low in time. */
+static double lack_at_landing(const ff_body_frame *body, const ff_gait *gait, int foot, ff_vec3 hip,
+                              double heading, double reach)
+{
+    const ff_gait_foot *state = &gait->foot[foot];
+    if (state->planted || state->progress < LANDING_SEEN) return 0.0;
+    double left = state->elapsed * (1.0 - state->progress) / state->progress;
+    ff_vec2 moved =
+        ff_scale2(ff_from_frame2(ff_fwd2(heading), ff_v2(gait->rates.forward, gait->rates.left)), left);
+    ff_quat flat = ff_gait_foot_rotation(state->lock.yaw, 0.0);
+    return ff_gait_lack(ff_add3(hip, ff_ground(moved, 0.0)), ff_gait_ankle(body, foot, state->lock, flat),
+                        reach);
+}
+
 void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cursor *cursor, ff_vec2 position,
                         double heading, double dt)
 {
@@ -75,6 +90,7 @@ void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cur
         ff_quat turn = ff_gait_foot_rotation(state->now.yaw, state->pitch);
         double reach = FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]);
         wanted = ff_max(wanted, ff_gait_lack(hip, ff_gait_ankle(body, foot, state->now, turn), reach));
+        wanted = ff_max(wanted, lack_at_landing(body, gait, foot, hip, heading, reach));
     }
     wanted = ff_min(wanted, MOST_DROP);
     /* Exact step of the critically damped oscillator, so that it is stable for any dt. */

@@ -74,8 +74,9 @@ static void pose_leg(const ff_body_frame *body, const ff_gait_foot *state, int f
 {
     ff_leg leg = ff_leg_of_clip(body, foot, hips, hips_turn, rotations);
     double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
-    ff_leg_target target = {state->now, foot_rotation(state, leg.foot), TOE_CLEARANCE * arc, MOST_RAISE,
-                            state->planted ? 1.0 : 0.0};
+    ff_leg_target target = {
+        state->now, foot_rotation(state, leg.foot),        TOE_CLEARANCE * arc, MOST_RAISE,
+        1.0,        state->planted ? 0.0 : state->progress};
     ff_leg_pose(body, foot, &target, &leg, hips_turn, rotations);
 }
 

@@ -2,12 +2,23 @@
 
 #define SOFT_FROM 0.99
 #define SOFT_TO 0.998
+#define SWING_FROM 0.965
+#define SWING_TO 0.993
+
+static double ease(double distance, double from, double to)
+{
+    if (distance <= from) return distance;
+    return from + (to - from) * (1.0 - ff_exp(-(distance - from) / (to - from)));
+}
 
 double ff_leg_soft_reach(double distance, double leg_length)
 {
-    double from = SOFT_FROM * leg_length, room = (SOFT_TO - SOFT_FROM) * leg_length;
-    if (distance <= from) return distance;
-    return from + room * (1.0 - ff_exp(-(distance - from) / room));
+    return ease(distance, SOFT_FROM * leg_length, SOFT_TO * leg_length);
+}
+
+double ff_leg_swing_reach(double distance, double leg_length, double share)
+{
+    return ff_lerp(distance, ease(distance, SWING_FROM * leg_length, SWING_TO * leg_length), share);
 }
 
 /* Part of v at right angles to unit vector line. */

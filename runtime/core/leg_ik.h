@@ -18,6 +18,10 @@ typedef struct ff_leg {
  * 4.5), so that the knee never snaps straight. */
 double ff_leg_soft_reach(double distance, double leg_length);
 
+/* The same for a leg in the air, which need not arrive: eases from 0.965 of the leg to 0.993, so that a foot that is flung
+ * ahead does not stop short where the leg ends. share: 0 reaches like a standing leg, 1 eases fully. */
+double ff_leg_swing_reach(double distance, double leg_length, double share);
+
 /* Move the leg's hip to hip and its ankle to (towards, when out of reach) ankle. The knee keeps the side the clip has
  * it on, carried over with the smallest rotation from the old hip-ankle line to the new one; bones keep their twist.
  * The foot's rotation is left alone. */

@@ -2,6 +2,35 @@
 
 #include "runtime/core/gait_hips.h"
 
+#define SWING_BEYOND                                                                                         \
+    0.08 /* of the reach: what a foot may be too far off in mid swing; at both ends its heel stays up */
+#define ROUND_REACH 0.025 /* of the leg, over which a foot that comes back into reach is let go ... */
+#define ROUND_SHARE 0.08  /* ... from so much of the swing on, and until as much before its end */
+#define SWING_TAKES 0.15  /* of the swing, in which a leg becomes free to fall short of its foot ... */
+#define SWING_GIVES 0.25  /* ... and before the landing no longer is */
+
+/* How far from the hip the ankle may be: FF_LEG_REACH for a foot on the ground. The corner where a swinging foot comes into
+ * reach is rounded, or the knee would bend all at once. */
+static double allowed_distance(double swing, double distance, double leg_length)
+{
+    double reach = FF_LEG_REACH * leg_length, rest = 1.0 - swing;
+    if (!(swing > 0.0)) return ff_min(distance, reach);
+    reach *= 1.0 + SWING_BEYOND * ff_smooth(swing / 0.4) * ff_smooth(rest / 0.4);
+    double round = ROUND_REACH * leg_length * ff_min(ff_min(swing, rest) / ROUND_SHARE, 1.0);
+    double over = distance - reach;
+    if (fabs(over) >= round) return ff_min(distance, reach);
+    return distance - (over + round) * (over + round) / (4.0 * round);
+}
+
+/* Where the ankle of a swinging leg may get to. */
+static ff_vec3 swing_in_reach(double swing, ff_vec3 hip, ff_vec3 ankle, double leg_length)
+{
+    double share = ff_smooth(swing / SWING_TAKES) * ff_smooth((1.0 - swing) / SWING_GIVES);
+    ff_vec3 away = ff_sub3(ankle, hip);
+    double distance = ff_length3(away);
+    return ff_madd3(hip, away, ff_leg_swing_reach(distance, leg_length, share) / distance);
+}
+
 /* A planted foot out of reach lifts its heel about the ball before anything slides: by the least angle that brings the
  * ankle within reach, found by bisection. */
 static ff_quat heel_in_reach(const ff_body_frame *body, ff_foothold ball, int foot, ff_vec3 hip,
@@ -55,15 +84,18 @@ void ff_leg_pose(const ff_body_frame *body, int foot, const ff_leg_target *targe
                  ff_quat hips_turn, ff_quat *rotations)
 {
     int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
-    double reach = FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]);
+    double length = body->thigh[foot] + body->shank[foot];
     leg->foot = target->turn;
     ff_vec3 ankle = ff_gait_ankle(body, foot, target->ball, leg->foot);
-    if (target->grip > 0.0 && ff_length3(ff_sub3(ankle, leg->hip)) > reach) {
+    double distance = ff_length3(ff_sub3(ankle, leg->hip));
+    double allowed = allowed_distance(target->swing, distance, length);
+    if (target->grip > 0.0 && distance > allowed) {
         ff_quat raised =
-            heel_in_reach(body, target->ball, foot, leg->hip, leg->foot, reach, target->most_raise);
+            heel_in_reach(body, target->ball, foot, leg->hip, leg->foot, allowed, target->most_raise);
         leg->foot = target->grip < 1.0 ? ff_quat_nlerp(leg->foot, raised, target->grip) : raised;
         ankle = ff_gait_ankle(body, foot, target->ball, leg->foot);
     }
+    if (target->swing > 0.0) ankle = swing_in_reach(target->swing, leg->hip, ankle, length);
     ff_leg_solve(leg, leg->hip, ankle);
     rotations[joint] = ff_quat_mul(ff_quat_conj(hips_turn), leg->thigh);
     rotations[joint + 1] = ff_quat_mul(ff_quat_conj(leg->thigh), leg->shank);

@@ -20,6 +20,9 @@ typedef struct ff_gait_foot {
     ff_foothold slope; /* 1/s, of that offset */
     double pitch;      /* rad, toes up + */
     double from_pitch; /* rad, in swing: offset from the clip's pitch when it left the ground */
+    ff_foothold left;  /* in swing: where it left the ground ... */
+    double left_pitch; /* rad */
+    double stood;      /* 0 in the midst of walking to 1 from a stand: ... it sets off the more gradually */
     double elapsed;    /* s, of the swing */
     double progress;   /* 0 to 1 of the swing */
     double phase_left; /* u, to the landing */
@@ -38,6 +41,7 @@ struct ff_gait {
     ff_blend blend;
     ff_rates rates;    /* smoothed: what the blend follows */
     double phase;      /* u in [0, 4) */
+    double pace;       /* factor on its speed */
     double stand;      /* 0 walking to 1 standing: share of the idle pose, before smoothing */
     double idle_time;  /* s, in the idle example's cycle */
     double hips_drop;  /* m, below the blended height, so that both legs reach */
