@@ -10,6 +10,7 @@
 int ff_bench_main(int argc, char **argv);
 int ff_bench_table1_main(int argc, char **argv);
 int ff_bench_fig7_main(int argc, char **argv);
+int ff_bench_walk_main(int argc, char **argv);
 
 /* Write value to path and give it back to jansson; NULL means that memory ran out. */
 ff_status ff_bench_write_json(const char *path, json_t *value, ff_error *error);
