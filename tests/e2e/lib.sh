@@ -25,6 +25,12 @@ test_that() {
     fi
 }
 
+# plain_test_that "sentence" COMMAND...: not under the sanitizers, which make programs four times slower: for tests that
+# take long and run no other code than the rest does, only again (a second seed, more threads, one more kill).
+plain_test_that() {
+    case $FF_BUILD in */sanitize) ;; *) test_that "$@" ;; esac
+}
+
 # skip "sentence" "reason": count a test that cannot run here.
 skip() {
     echo "SKIPPED: $1: $2"

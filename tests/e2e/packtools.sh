@@ -5,7 +5,7 @@
 "$pack" generate -o "$work/made" --quiet >/dev/null || exit 1
 clips=$work/clips
 mkdir "$clips"
-for name in $(ls "$work/made" | grep '\.bvh$' | grep -E 'walk-normal|walk-slow|turn-left-90|idle|jog' | head -5); do
+for name in $(ls "$work/made" | grep '\.bvh$' | grep -E '^(walk-normal|turn-left-90|idle)\.bvh'); do
     cp "$work/made/$name" "$clips"
 done
 one=$(ls "$clips" | head -1)
@@ -187,7 +187,7 @@ a_pack_is_sound_and_a_changed_clip_is_seen() {
 }
 
 test_that "a second build reuses everything and gives the same bytes" a_second_build_reuses_everything_and_gives_the_same_bytes
-test_that "threads change nothing" threads_change_nothing
+plain_test_that "threads change nothing" threads_change_nothing
 test_that "a changed clip alone is worked out again" a_changed_clip_alone_is_worked_out_again
 test_that "a clip that is only touched is not" a_clip_that_is_only_touched_is_not
 test_that "a damaged cache is not believed" a_damaged_cache_is_not_believed
@@ -195,12 +195,12 @@ test_that "a cache that cannot be written is told, and no more" a_cache_that_can
 test_that "settings that come late keep the cache" settings_that_come_late_keep_the_cache
 test_that "the reference is a configuration that changes nothing" the_reference_is_a_configuration_that_changes_nothing
 test_that "the printed reference is the one in the house" the_printed_reference_is_the_one_in_the_house
-test_that "a configuration counts, and options count more" a_configuration_counts_and_options_count_more
+plain_test_that "a configuration counts, and options count more" a_configuration_counts_and_options_count_more
 test_that "a wrong configuration is refused at its place" a_wrong_configuration_is_refused_at_its_place
 test_that "bad clips are listed at the end and the status says so" bad_clips_are_listed_at_the_end_and_the_status_says_so
 test_that "a strict build stops at the first and writes nothing" a_strict_build_stops_at_the_first_and_writes_nothing
 test_that "a full disk leaves the old pack whole" a_full_disk_leaves_the_old_pack_whole
-test_that "a killed build leaves the old pack or the new one whole" a_killed_build_leaves_the_old_pack_or_the_new_one_whole
+plain_test_that "a killed build leaves the old pack or the new one whole" a_killed_build_leaves_the_old_pack_or_the_new_one_whole
 test_that "import writes clips that give the same plants" import_writes_clips_that_give_the_same_plants
 test_that "import only looks without a folder, and names what it cannot read" import_only_looks_without_a_folder_and_names_what_it_cannot_read
 test_that "two packs are told apart in words" two_packs_are_told_apart_in_words

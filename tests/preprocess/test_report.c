@@ -2,16 +2,14 @@
 #define _GNU_SOURCE
 #include "preprocess/report.h"
 
-#include "preprocess/build.h"
 #include "preprocess/report_parts.h"
 #include "runtime/core/base/file.h"
-#include "tests/check.h"
+#include "tests/preprocess/built_in_pack.h"
 
 #include <stdio.h>
 #include <unistd.h>
 
 typedef struct page {
-    void *image;
     ff_pack *pack;
     char *text; /* the HTML, without what pictures hold */
     size_t length, bytes;
@@ -46,14 +44,7 @@ static int page_make(void **state)
     (void)state;
     page p;
     ff_error error;
-    ff_build_settings settings = ff_build_settings_default();
-    ff_build_result built;
-    size_t size;
-    settings.quiet = true;
-    FF_ASSERT_OK(ff_build(NULL, &settings, &built, &error), error);
-    FF_ASSERT_OK(ff_pack_image(&built.content, &p.image, &size, &error), error);
-    ff_build_result_free(&built);
-    FF_ASSERT_OK(ff_pack_open_memory(p.image, size, &p.pack, &error), error);
+    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &p.pack, &error), error);
     char folder[] = "/tmp/ff-report-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     FF_ASSERT_OK(ff_report_write(p.pack, "a & b <built-in>", folder, &error), error);
@@ -77,7 +68,6 @@ static int page_free(void **state)
 {
     (void)state;
     ff_pack_close(shared.pack);
-    free(shared.image);
     free(shared.text);
     return 0;
 }
