@@ -70,6 +70,12 @@ typedef struct ff_quat {
     double x, y, z, w;
 } ff_quat;
 
+/* From a joint's frame into the world: row i of the rotation, then the place's component i (x, y, z); for column vectors,
+ * world = row[i][0..2] . v + row[i][3]. 48 bytes, as shaders and skinning take it (mat3x4 by rows). */
+typedef struct ff_matrix {
+    float row[3][4];
+} ff_matrix;
+
 static inline ff_vec2 ff_plane(ff_vec3 p)
 {
     ff_vec2 q = {p.z, p.x};

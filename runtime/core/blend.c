@@ -197,7 +197,7 @@ void ff_blend_space_destroy(ff_blend_space *space)
     free(space->vertices);
     free(space->points);
     free(space->hips);
-    free(space->rotations);
+    free(space->poses.keys);
     for (int gait = 0; gait < FF_GAIT_COUNT; ++gait) {
         ff_blend_region *region = &space->region[gait];
         free(region->solids);

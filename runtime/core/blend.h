@@ -5,6 +5,9 @@
 #include "runtime/core/blend_simplex.h"
 #include "runtime/core/gait_model.h"
 #include "runtime/core/joints.h"
+#include "runtime/core/pose_matrices.h"
+
+#define FF_POSE_LANES 24 /* joints of a pack, rounded up for SIMD */
 
 /* A cycle of steps has four sections. Walking: from left contact, right toe-off, right contact, left toe-off. Running, which
  * has its own order: from left contact, left toe-off, right contact, right toe-off. */
@@ -68,11 +71,13 @@ struct ff_blend_space {
     uint32_t walk_count;
     ff_blend_region region[FF_GAIT_COUNT];
     /* Poses of the examples' frames, numbered as FEET is: decoded once, as every agent blends several of them twice a
-     * step. Rotations are 32767 (x, y, z, w): half the memory of floats, and so more of it near the processor. */
+     * step. Rotations in 16 bits: half the memory of floats, and so more of it near the processor. */
     float (*hips)[3]; /* forward, left, height */
-    int16_t (*rotations)[FF_JOINT_COUNT][4];
-    int32_t idle;         /* vertex index of the idle example (its rates are zero), or -1 */
-    double neutral[2][3]; /* per foot: forward, left, yaw of its place under a standing body */
+    ff_pose_store poses;
+    ff_pose_tree tree;
+    float offsets[3 * FF_POSE_LANES]; /* of the tree */
+    int32_t idle;                     /* vertex index of the idle example (its rates are zero), or -1 */
+    double neutral[2][3];             /* per foot: forward, left, yaw of its place under a standing body */
     ff_clip_model model;
 };
 

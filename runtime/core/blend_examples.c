@@ -101,11 +101,12 @@ static bool read_vertex(const ff_blend_space *space, uint32_t index, ff_blend_ve
     return usable;
 }
 
-static void read_rotation(ff_quat q, int16_t out[4])
+static void read_tree(ff_blend_space *space)
 {
-    const double part[4] = {q.x, q.y, q.z, q.w};
-    for (int i = 0; i < 4; ++i)
-        out[i] = (int16_t)floor(ff_clamp(part[i], -1.0, 1.0) * 32767.0 + 0.5);
+    for (uint32_t j = 0; j < FF_JOINT_COUNT; ++j)
+        for (uint32_t i = 0; i < 3; ++i)
+            space->offsets[i * FF_POSE_LANES + j] = space->pack->joints[j].offset[i];
+    space->tree = (ff_pose_tree){ff_joint_parents, space->offsets, FF_JOINT_COUNT, FF_POSE_LANES};
 }
 
 /* The examples' frames come first of all frames. */
@@ -113,9 +114,11 @@ static ff_status read_poses(ff_blend_space *space, ff_error *error)
 {
     const ff_pack *pack = space->pack;
     uint32_t frames = pack->foot_count / 2;
+    double mean[4 * FF_JOINT_COUNT] = {0.0};
     space->hips = ff_calloc(frames, sizeof *space->hips);
-    space->rotations = ff_calloc(frames, sizeof *space->rotations);
-    if (!space->hips || !space->rotations)
+    space->poses.lanes = FF_POSE_LANES;
+    space->poses.keys = ff_calloc(frames, 4 * FF_POSE_LANES * sizeof *space->poses.keys);
+    if (!space->hips || !space->poses.keys)
         return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory preparing %u poses", frames);
     for (uint32_t i = 0; i < pack->example_count; ++i) {
         uint32_t index = pack->examples[i].stream;
@@ -128,9 +131,10 @@ static ff_status read_poses(ff_blend_space *space, ff_error *error)
             space->hips[frame][0] = (float)hips.z;
             space->hips[frame][1] = (float)hips.x;
             space->hips[frame][2] = (float)hips.y;
-            for (int j = 0; j < FF_JOINT_COUNT; ++j)
-                read_rotation(rotations[j], space->rotations[frame][j]);
+            for (uint32_t j = 0; j < FF_JOINT_COUNT; ++j)
+                ff_pose_write(&space->poses, frame, j, rotations[j]);
         }
+        ff_pose_align(&space->poses, stream->first_frame, stream->frame_count, FF_JOINT_COUNT, mean);
     }
     return FF_OK;
 }
@@ -174,6 +178,7 @@ ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)
     if (!space->vertices || !space->points)
         return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory preparing %u examples", pack->example_count);
     read_body(space);
+    read_tree(space);
     uint32_t walking = 0;
     for (uint32_t gait = 0; gait < FF_GAIT_COUNT; ++gait) {
         for (uint32_t i = 0; i < pack->example_count; ++i) {

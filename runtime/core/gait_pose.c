@@ -9,21 +9,23 @@
 #define MOST_RAISE (60.0 * FF_DEG) /* of a heel, for a planted foot to be in reach */
 #define TOE_CLEARANCE 0.015 /* m, over the rest height of the toe tip (gait facts: people 1.4 to 2.3 cm) */
 
-/* Blended local rotations of everything but the hips, the idle pose mixed in while standing. */
+/* Local rotations of everything but the hips: of the motion, with what is left of the one before, and while standing of the
+ * idle pose. */
 static void sample_joints(const ff_blend_space *space, const ff_gait *gait, const ff_cursor *cursor,
                           ff_quat *rotations)
 {
     ff_cursor idle;
-    bool standing = ff_gait_idle_cursor(space, gait, &idle);
-    double share = ff_smooth(gait->stand);
-    for (int j = FF_JOINT_SPINE; j < FF_JOINT_COUNT; ++j) {
-        rotations[j] = standing && share >= 1.0 ? ff_sample_rotation(space, &idle, j)
-                                                : ff_sample_rotation(space, cursor, j);
-        if (ff_pose_offset_active(&gait->offset))
-            rotations[j] = ff_pose_offset_turn(&gait->offset, j, rotations[j]);
-        if (standing && share < 1.0)
-            rotations[j] = ff_quat_nlerp(rotations[j], ff_sample_rotation(space, &idle, j), share);
-    }
+    ff_quat still[FF_JOINT_COUNT];
+    double share = ff_gait_idle_cursor(space, gait, &idle) ? ff_smooth(gait->stand) : 0.0;
+    bool between = share > 0.0 && share < 1.0, offset = ff_pose_offset_active(&gait->offset);
+    bool at_once = between && !offset && !cursor->clip;
+    ff_sample_rotations(space, share >= 1.0 ? &idle : cursor, at_once ? &idle : NULL, share, rotations);
+    for (int j = FF_JOINT_SPINE; j < FF_JOINT_COUNT && offset; ++j)
+        rotations[j] = ff_pose_offset_turn(&gait->offset, j, rotations[j]);
+    if (!between || at_once) return;
+    ff_sample_rotations(space, &idle, NULL, 0.0, still);
+    for (int j = FF_JOINT_SPINE; j < FF_JOINT_COUNT; ++j)
+        rotations[j] = ff_quat_nlerp(rotations[j], still[j], share);
 }
 
 /* A standing person breathes and looks about. */
@@ -94,6 +96,13 @@ void ff_gait_idle_pose(const ff_blend_space *space, double idle_time, ff_vec2 po
     apply_idle_life(&gait, rotations);
 }
 
+/* One step of Newton's method: what is a float's rounding off comes within 1e-13. */
+static ff_quat near_unit(ff_quat q)
+{
+    double scale = 1.5 - 0.5 * ff_quat_dot(q, q);
+    return (ff_quat){q.x * scale, q.y * scale, q.z * scale, q.w * scale};
+}
+
 void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 position, double heading,
                   ff_vec3 *hips, ff_quat *rotations)
 {
@@ -106,5 +115,5 @@ void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 posi
     for (int foot = 0; foot < 2; ++foot)
         pose_leg(&space->body, &gait->foot[foot], foot, *hips, rotations[FF_JOINT_HIPS], rotations);
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
-        rotations[j] = ff_quat_unit(rotations[j]);
+        rotations[j] = near_unit(rotations[j]);
 }

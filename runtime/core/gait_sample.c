@@ -180,24 +180,44 @@ static ff_quat clip_rotation(const ff_blend_space *space, const ff_cursor *curso
     return ff_quat_mul(ff_quat_axis(ff_v3(0.0, 0.0, 1.0), -lean), turn);
 }
 
-/* Weighted mean on the hemisphere of the first part, normalised: for examples within 60 degrees the same as chains of
- * slerp within 1 degree (algorithms D.1). */
+/* Weighted mean on the hemisphere that the stored frames were put on, normalised: for examples within 60 degrees the same
+ * as chains of slerp within 1 degree (algorithms D.1). */
 ff_quat ff_sample_rotation(const ff_blend_space *space, const ff_cursor *cursor, int joint)
 {
     ff_quat sum = {0.0, 0.0, 0.0, 0.0};
+    uint32_t lanes = space->poses.lanes;
     for (uint32_t i = 0; i < cursor->count; ++i)
         for (int k = 0; k < 2; ++k) {
-            const int16_t *q = space->rotations[cursor->part[i].frame[k]][joint];
+            const int16_t *q = ff_pose_frame(&space->poses, cursor->part[i].frame[k]) + joint;
             double weight = cursor->part[i].weight[k];
-            double side = sum.x * q[0] + sum.y * q[1] + sum.z * q[2] + sum.w * q[3];
-            if (side < 0.0) weight = -weight;
             sum.x += weight * q[0];
-            sum.y += weight * q[1];
-            sum.z += weight * q[2];
-            sum.w += weight * q[3];
+            sum.y += weight * q[lanes];
+            sum.z += weight * q[2 * lanes];
+            sum.w += weight * q[3 * lanes];
         }
     sum = ff_quat_unit(sum);
     return cursor->clip ? clip_rotation(space, cursor, joint, sum) : sum;
+}
+
+static void add_to_mix(const ff_cursor *cursor, double share, ff_pose_mix *mix)
+{
+    for (uint32_t i = 0; i < cursor->count; ++i)
+        ff_pose_mix_add(mix, cursor->part[i].frame[0], cursor->part[i].frame[1],
+                        share * cursor->part[i].weight[0], share * cursor->part[i].weight[1]);
+}
+
+void ff_sample_rotations(const ff_blend_space *space, const ff_cursor *cursor, const ff_cursor *other,
+                         double share, ff_quat *rotations)
+{
+    ff_pose_mix mix = {.count = 0};
+    float lanes[4 * FF_POSE_LANES];
+    add_to_mix(cursor, other ? 1.0 - share : 1.0, &mix);
+    if (other) add_to_mix(other, share, &mix);
+    ff_pose_blend(&space->poses, &mix, lanes);
+    ff_pose_rotations(lanes, FF_POSE_LANES, FF_JOINT_SPINE, FF_JOINT_COUNT - FF_JOINT_SPINE,
+                      rotations + FF_JOINT_SPINE);
+    for (int joint = FF_JOINT_SPINE; joint < FF_JOINT_HIP_L && cursor->clip; ++joint)
+        rotations[joint] = clip_rotation(space, cursor, joint, rotations[joint]);
 }
 
 static double section_duration(const ff_blend_space *space, const ff_blend *blend, int section)

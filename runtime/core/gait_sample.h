@@ -29,6 +29,10 @@ ff_cursor ff_cursor_of_vertex(const ff_blend_space *space, int32_t vertex, doubl
 ff_foot_sample ff_sample_foot(const ff_blend_space *space, const ff_cursor *cursor, int foot);
 ff_vec3 ff_sample_hips(const ff_blend_space *space, const ff_cursor *cursor); /* forward, left, height */
 ff_quat ff_sample_rotation(const ff_blend_space *space, const ff_cursor *cursor, int joint);
+/* The same of all joints but the hips, quickly and in floats (pose_blend.h): for display, not for what is remembered. With
+ * other, which is of examples like cursor then, a share of it is mixed in. */
+void ff_sample_rotations(const ff_blend_space *space, const ff_cursor *cursor, const ff_cursor *other,
+                         double share, ff_quat *rotations);
 
 /* How much of the idle example's cycle has passed on the idle clock, 0 to 1. */
 double ff_idle_fraction(const ff_blend_space *space, double idle_time);
