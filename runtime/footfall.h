@@ -297,10 +297,29 @@ uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity
 ff_status ff_crowd_agent_pose(const ff_crowd *crowd, ff_agent agent, ff_vec3 *hips, ff_quat *rotations,
                               ff_error *error);
 
+/* Matrices of an agent's joints now: out[joint_count], from the joints' frames to a world whose origin is the given point of
+ * the ground (near the camera: floats tell 0.1 mm up to a kilometre from it). Multiplied with the inverse of the rest pose
+ * (a translation: rest rotations are the identity) they skin a mesh. Computed in floats, within 0.1 mm of
+ * ff_crowd_agent_pose; no part of the state. Allocates nothing; may be called from several threads. */
+ff_status ff_crowd_agent_matrices(const ff_crowd *crowd, ff_agent agent, ff_vec2 origin, ff_matrix *out,
+                                  ff_error *error);
+
+/* The same of all live agents at once, on the crowd's threads: out[agents][joint_count], agents in slot order, as
+ * ff_crowd_agents lists them; room for capacity agents. FF_ERR_RANGE, and nothing written, when there are more. Not while
+ * another thread calls this or ff_crowd_step on the same crowd. */
+ff_status ff_crowd_matrices(ff_crowd *crowd, ff_vec2 origin, ff_matrix *out, uint32_t capacity,
+                            ff_error *error);
+
 /* Seconds spent per phase since creation, summed over steps. Wall clock: for reports only, never part of the
  * state. */
 typedef struct ff_crowd_timings {
-    double neighbours, navigation, synthesis, total;
+    double snapshot;   /* what everybody shows the others, and who is where */
+    double neighbours; /* who is near whom */
+    double navigation; /* which velocity to ask for */
+    double bodies;     /* what bodies make of it: the root moves */
+    double synthesis;  /* steps, weights and foot locks */
+    double total;      /* of ff_crowd_step: the sum of these */
+    double matrices;   /* of ff_crowd_matrices; not in total */
 } ff_crowd_timings;
 ff_crowd_timings ff_crowd_time_spent(const ff_crowd *crowd);
 

@@ -198,7 +198,7 @@ static bool is_place(ff_vec2 p)
     return fabs(p.a) <= PLANE_MAX && fabs(p.b) <= PLANE_MAX; /* false for nan */
 }
 
-static ff_status check_place(ff_vec2 p, const char *what, ff_error *error)
+ff_status ff_crowd_check_place(ff_vec2 p, const char *what, ff_error *error)
 {
     if (is_place(p)) return FF_OK;
     bool finite = isfinite(p.a) && isfinite(p.b);
@@ -211,8 +211,8 @@ static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
     if (!def || def->cookie != AGENT_COOKIE)
         return ff_fail(error, FF_ERR_ARGUMENT,
                        "the agent's definition was not made by ff_agent_def_default()");
-    ff_status status = check_place(def->position, "position", error);
-    if (status == FF_OK) status = check_place(def->goal, "goal", error);
+    ff_status status = ff_crowd_check_place(def->position, "position", error);
+    if (status == FF_OK) status = ff_crowd_check_place(def->goal, "goal", error);
     if (status == FF_OK) status = check_between(def->heading, -1e3, 1e3, "heading", error);
     if (status == FF_OK)
         status = check_between(def->goal_tolerance, TOLERANCE_MIN, 1e3, "goal_tolerance", error);
@@ -266,7 +266,7 @@ ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent 
     return FF_OK;
 }
 
-static ff_status check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *error)
+ff_status ff_crowd_check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *error)
 {
     if (crowd && agent.slot < crowd->slot_count && crowd->alive[agent.slot] &&
         crowd->generation[agent.slot] == agent.generation)
@@ -277,7 +277,7 @@ static ff_status check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *er
 
 ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error)
 {
-    ff_status status = check_agent(crowd, agent, error);
+    ff_status status = ff_crowd_check_agent(crowd, agent, error);
     if (status != FF_OK) return status;
     crowd->alive[agent.slot] = 0;
     --crowd->agent_count;
@@ -288,8 +288,8 @@ ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error
 
 ff_status ff_crowd_set_goal(ff_crowd *crowd, ff_agent agent, ff_vec2 goal, ff_error *error)
 {
-    ff_status status = check_agent(crowd, agent, error);
-    if (status == FF_OK) status = check_place(goal, "goal", error);
+    ff_status status = ff_crowd_check_agent(crowd, agent, error);
+    if (status == FF_OK) status = ff_crowd_check_place(goal, "goal", error);
     if (status != FF_OK) return status;
     crowd->traits[agent.slot].goal = goal;
     ff_mind_forget_goal(&crowd->minds[agent.slot]);
@@ -299,8 +299,8 @@ ff_status ff_crowd_set_goal(ff_crowd *crowd, ff_agent agent, ff_vec2 goal, ff_er
 ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *error)
 {
     if (!crowd) return ff_fail(error, FF_ERR_ARGUMENT, "no crowd to add a wall to");
-    ff_status status = check_place(p, "the wall's start", error);
-    if (status == FF_OK) status = check_place(q, "the wall's end", error);
+    ff_status status = ff_crowd_check_place(p, "the wall's start", error);
+    if (status == FF_OK) status = ff_crowd_check_place(q, "the wall's end", error);
     if (status != FF_OK) return status;
     if (crowd->steps > 0)
         return ff_fail(error, FF_ERR_ARGUMENT, "walls are fixed once the first step was taken");
@@ -340,7 +340,7 @@ uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity
 
 ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_state *out, ff_error *error)
 {
-    ff_status status = check_agent(crowd, agent, error);
+    ff_status status = ff_crowd_check_agent(crowd, agent, error);
     if (status != FF_OK) return status;
     const ff_body *body = &crowd->bodies[agent.slot];
     const ff_mind *mind = &crowd->minds[agent.slot];
@@ -374,23 +374,12 @@ ff_status ff_crowd_synthesis_counts(const ff_crowd *crowd, ff_agent agent, ff_sy
                                     ff_error *error)
 {
     bool all = crowd && agent.slot == 0 && agent.generation == 0;
-    ff_status status = all ? FF_OK : check_agent(crowd, agent, error);
+    ff_status status = all ? FF_OK : ff_crowd_check_agent(crowd, agent, error);
     if (status == FF_OK && !out) status = ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the counts");
     if (status != FF_OK) return status;
     *out = (ff_synthesis_counts){0.0, 0.0, 0.0, 0, 0};
     if (!all) add_counts(&crowd->gaits[agent.slot], out);
     for (uint32_t slot = 0; all && slot < crowd->slot_count; ++slot)
         if (crowd->alive[slot]) add_counts(&crowd->gaits[slot], out);
-    return FF_OK;
-}
-
-ff_status ff_crowd_agent_pose(const ff_crowd *crowd, ff_agent agent, ff_vec3 *hips, ff_quat *rotations,
-                              ff_error *error)
-{
-    ff_status status = check_agent(crowd, agent, error);
-    if (status != FF_OK) return status;
-    if (!hips || !rotations) return ff_fail(error, FF_ERR_ARGUMENT, "nowhere to put the pose");
-    const ff_body *body = &crowd->bodies[agent.slot];
-    ff_gait_pose(crowd->space, &crowd->gaits[agent.slot], body->position, body->heading, hips, rotations);
     return FF_OK;
 }

@@ -26,6 +26,8 @@ static const ff_crowd_array arrays[] = {
     ROW("seen", FF_ARRAY_STEP, unsorted, NULL),
     ROW("near", FF_ARRAY_STEP, neighbours, NULL),
     ROW("nnbr", FF_ARRAY_STEP, neighbour_count, NULL),
+    ROW("rate", FF_ARRAY_STEP, rates, NULL),
+    ROW("live", FF_ARRAY_STEP, live, NULL),
 };
 
 uint32_t ff_crowd_array_count(void)

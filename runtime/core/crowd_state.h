@@ -42,11 +42,26 @@ struct ff_crowd {
     ff_body *bodies;
     ff_vec2 *velocity; /* m/s, of the root over the last step */
     ff_gait *gaits;
+    ff_rates *rates; /* of this step, as the body realised them */
 
     /* per agent of this step, in the grid's order */
     ff_seen *unsorted; /* in slot order */
     ff_neighbour (*neighbours)[FF_NEIGHBOURS_MAX];
     uint32_t *neighbour_count;
+
+    uint32_t *live; /* slots of the live agents, in slot order: that is how memory is read the fastest */
 };
+
+/* Call run(context, chunk) for all chunks of FF_CROWD_CHUNK of count agents, on the crowd's threads. */
+#define FF_CROWD_CHUNK 16
+void ff_crowd_for_chunks(ff_crowd *crowd, uint32_t count, void (*run)(void *context, uint32_t chunk),
+                         void *context);
+
+double ff_crowd_clock(void); /* s; for reports only */
+
+/* An error unless the point is within what a crowd can compute with. */
+ff_status ff_crowd_check_place(ff_vec2 p, const char *what, ff_error *error);
+/* FF_ERR_ARGUMENT unless the agent lives in the crowd. */
+ff_status ff_crowd_check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *error);
 
 #endif

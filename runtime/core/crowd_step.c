@@ -5,14 +5,13 @@
 
 #include <time.h>
 
-#define CHUNK 16            /* agents per task */
 #define DOUBLE_SUPPORT 0.24 /* of a step */
 #define RUN_SUPPORT 0.4     /* of a running step: pushing off is over when the foot leaves, then it flies */
 #define WALLS_WITHIN 1.5    /* m: a second away for who walks fast */
 /* s: a low-pass as late as the displacement over 0.25 s (algorithms E, 9), for those who are not told the rates */
 #define SEEN_DELAY 0.125
 
-static double now(void)
+double ff_crowd_clock(void)
 {
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
@@ -21,29 +20,36 @@ static double now(void)
 
 /* ----------------------------------------------------------------------------------------------- parallel */
 
+void ff_crowd_for_chunks(ff_crowd *crowd, uint32_t count, void (*run)(void *context, uint32_t chunk),
+                         void *context)
+{
+    uint32_t chunks = (count + FF_CROWD_CHUNK - 1) / FF_CROWD_CHUNK;
+    if (crowd->def.tasks)
+        crowd->def.tasks(crowd->def.task_pool, chunks, run, context);
+    else
+        ff_tasks_for(crowd->own_tasks, chunks, 1, run, context);
+}
+
 typedef struct agent_loop {
     ff_crowd *crowd;
-    void (*agent)(ff_crowd *crowd, uint32_t index); /* index into grid.seen */
+    void (*agent)(ff_crowd *crowd, uint32_t index); /* into grid.seen, or into live */
 } agent_loop;
 
 static void run_chunk(void *context, uint32_t chunk)
 {
     const agent_loop *loop = context;
-    uint32_t end = (chunk + 1) * CHUNK, count = loop->crowd->grid.count;
+    uint32_t end = (chunk + 1) * FF_CROWD_CHUNK, count = loop->crowd->grid.count;
     if (end > count) end = count;
-    for (uint32_t i = chunk * CHUNK; i < end; ++i)
+    for (uint32_t i = chunk * FF_CROWD_CHUNK; i < end; ++i)
         loop->agent(loop->crowd, i);
 }
 
-static void run_phase(ff_crowd *crowd, void (*agent)(ff_crowd *crowd, uint32_t index))
+/* Returns when it was done. */
+static double run_phase(ff_crowd *crowd, void (*agent)(ff_crowd *crowd, uint32_t index))
 {
     agent_loop loop = {crowd, agent};
-    uint32_t chunks = (crowd->grid.count + CHUNK - 1) / CHUNK;
-    if (crowd->def.tasks) {
-        crowd->def.tasks(crowd->def.task_pool, chunks, run_chunk, &loop);
-    } else {
-        ff_tasks_for(crowd->own_tasks, chunks, 1, run_chunk, &loop);
-    }
+    ff_crowd_for_chunks(crowd, crowd->grid.count, run_chunk, &loop);
+    return ff_crowd_clock();
 }
 
 /* ------------------------------------------------------------------------------------------------- phases */
@@ -66,6 +72,7 @@ static void snapshot(ff_crowd *crowd)
         ff_vec2 reference = baseline(crowd, slot) ? velocity
                                                   : ff_nav_reference(&crowd->def.mcn, &crowd->traits[slot],
                                                                      mind, body->position, velocity);
+        crowd->live[count] = slot;
         crowd->unsorted[count++] = (ff_seen){.position = body->position,
                                              .velocity = velocity,
                                              .reference = reference,
@@ -86,6 +93,32 @@ static void find_neighbours(ff_crowd *crowd, uint32_t index)
         ff_grid_neighbours(&crowd->grid, index, padding, crowd->neighbours[index]);
 }
 
+/* By which way it shall move from now on (FbCrowd eq 1). */
+static void choose(ff_crowd *crowd, uint32_t index)
+{
+    const ff_seen *me = &crowd->grid.seen[index];
+    const ff_traits *traits = &crowd->traits[me->slot];
+    ff_gait *gait = &crowd->gaits[me->slot];
+    ff_choice_view view = {
+        .step = crowd->def.step,
+        .time = INFINITY,
+        .ahead = ff_dot2(crowd->minds[me->slot].command, ff_fwd2(crowd->bodies[me->slot].heading)),
+        .since_switch = gait->since_switch,
+        .hurries = traits->preferred_speed > FF_RUN_PREFERRED};
+    if (traits->synthesis == FF_SYNTHESIS_HYBRID) {
+        const ff_wall *walls[FF_NEAR_WALLS_MAX];
+        uint32_t wall_count =
+            ff_walls_near(&crowd->walls, me->position, traits->radius + WALLS_WITHIN, walls);
+        view.time =
+            ff_choice_time(me, crowd->neighbours[index], crowd->neighbour_count[index], walls, wall_count);
+        view.density = ff_choice_density(&crowd->grid, index);
+    }
+    bool urgent;
+    ff_locomotion way =
+        ff_choose_locomotion((ff_synthesis)traits->synthesis, &view, &crowd->choices[me->slot], &urgent);
+    ff_gait_want(crowd->space, gait, way, urgent);
+}
+
 static void navigate(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
@@ -103,6 +136,7 @@ static void navigate(ff_crowd *crowd, uint32_t index)
     body.stance.foot = ff_gait_stance(&crowd->gaits[slot], &body.stance.ball, &body.stance.heading);
     ff_nav_step(&world, index, crowd->neighbours[index], crowd->neighbour_count[index], &crowd->traits[slot],
                 &body, &crowd->minds[slot]);
+    choose(crowd, index);
 }
 
 typedef struct gait_of {
@@ -114,29 +148,6 @@ static ff_rates clamp_to_gait(const void *context, ff_rates target)
 {
     const gait_of *of = context;
     return ff_gait_clamp(of->space, of->gait, target);
-}
-
-/* By which way it shall move from now on (FbCrowd eq 1). */
-static void choose(ff_crowd *crowd, uint32_t index, const ff_wall *const *walls, uint32_t wall_count)
-{
-    const ff_seen *me = &crowd->grid.seen[index];
-    const ff_traits *traits = &crowd->traits[me->slot];
-    ff_gait *gait = &crowd->gaits[me->slot];
-    ff_choice_view view = {
-        .step = crowd->def.step,
-        .time = INFINITY,
-        .ahead = ff_dot2(crowd->minds[me->slot].command, ff_fwd2(crowd->bodies[me->slot].heading)),
-        .since_switch = gait->since_switch,
-        .hurries = traits->preferred_speed > FF_RUN_PREFERRED};
-    if (traits->synthesis == FF_SYNTHESIS_HYBRID) {
-        view.time =
-            ff_choice_time(me, crowd->neighbours[index], crowd->neighbour_count[index], walls, wall_count);
-        view.density = ff_choice_density(&crowd->grid, index);
-    }
-    bool urgent;
-    ff_locomotion way =
-        ff_choose_locomotion((ff_synthesis)traits->synthesis, &view, &crowd->choices[me->slot], &urgent);
-    ff_gait_want(crowd->space, gait, way, urgent);
 }
 
 /* Where in a step the legs are: 0 at a contact, DOUBLE_SUPPORT when the other foot leaves (key phases, synthesis study
@@ -152,7 +163,7 @@ static double step_phase(const ff_gait *gait)
 
 static void move(ff_crowd *crowd, uint32_t index)
 {
-    uint32_t slot = crowd->grid.seen[index].slot;
+    uint32_t slot = crowd->live[index];
     ff_body *body = &crowd->bodies[slot];
     const ff_mind *mind = &crowd->minds[slot];
     const ff_wall *walls[FF_NEAR_WALLS_MAX];
@@ -163,31 +174,39 @@ static void move(ff_crowd *crowd, uint32_t index)
     ff_body_limits limits = {
         clamp_to_gait, &of, walls, 0, radius, crowd->def.mcn.back_pedal || mind->standing};
     limits.wall_count = ff_walls_near(&crowd->walls, before, radius + WALLS_WITHIN, walls);
-    choose(crowd, index, walls, limits.wall_count);
     body->phase = step_phase(gait);
-    ff_rates mean = ff_body_step(body, mind->command, mind->facing, dt, &limits);
+    crowd->rates[slot] = ff_body_step(body, mind->command, mind->facing, dt, &limits);
     crowd->velocity[slot] = ff_scale2(ff_sub2(body->position, before), 1.0 / dt);
     if (baseline(crowd, slot)) {
         ff_mind *seen = &crowd->minds[slot];
         double share = 1.0 - ff_exp(-dt / SEEN_DELAY);
         seen->measured = ff_madd2(seen->measured, ff_sub2(crowd->velocity[slot], seen->measured), share);
     }
-    ff_gait_step(crowd->space, gait, body->position, body->heading, mean, dt);
+}
+
+static void synthesise(ff_crowd *crowd, uint32_t index)
+{
+    uint32_t slot = crowd->live[index];
+    const ff_body *body = &crowd->bodies[slot];
+    ff_gait_step(crowd->space, &crowd->gaits[slot], body->position, body->heading, crowd->rates[slot],
+                 crowd->def.step);
 }
 
 void ff_crowd_step(ff_crowd *crowd)
 {
-    double start = now();
+    ff_crowd_timings *spent = &crowd->timings;
+    double start = ff_crowd_clock();
     snapshot(crowd);
-    run_phase(crowd, find_neighbours);
-    double found = now();
-    run_phase(crowd, navigate);
-    double decided = now();
-    run_phase(crowd, move);
-    double moved = now();
+    double seen = ff_crowd_clock();
+    double found = run_phase(crowd, find_neighbours);
+    double decided = run_phase(crowd, navigate);
+    double moved = run_phase(crowd, move);
+    double stepped = run_phase(crowd, synthesise);
     ++crowd->steps;
-    crowd->timings.neighbours += found - start;
-    crowd->timings.navigation += decided - found;
-    crowd->timings.synthesis += moved - decided;
-    crowd->timings.total += moved - start;
+    spent->snapshot += seen - start;
+    spent->neighbours += found - seen;
+    spent->navigation += decided - found;
+    spent->bodies += moved - decided;
+    spent->synthesis += stepped - moved;
+    spent->total += stepped - start;
 }

@@ -99,9 +99,9 @@ static json_t *report_times(const ff_watch *watch, const ff_run_facts *facts)
 {
     double scale = watch->collisions.agent_steps ? 1e6 / (double)watch->collisions.agent_steps : 0.0;
     const ff_crowd_timings *spent = &facts->timings;
-    return json_pack("{s:f,s:f,s:f,s:f}", "total", spent->total * scale, "neighbours",
-                     spent->neighbours * scale, "navigation", spent->navigation * scale, "synthesis",
-                     spent->synthesis * scale);
+    return json_pack("{s:f,s:f,s:f,s:f,s:f}", "total", spent->total * scale, "neighbours",
+                     (spent->snapshot + spent->neighbours) * scale, "navigation", spent->navigation * scale,
+                     "bodies", spent->bodies * scale, "synthesis", spent->synthesis * scale);
 }
 
 json_t *ff_watch_report(ff_watch *watch, const ff_recording *recording, const ff_run_facts *facts)

@@ -46,7 +46,7 @@ static ff_status run_trial(const ff_trial_set *set, ff_trial *trial, ff_error *e
         const ff_crowd_timings *spent = &simulation.timings;
         double steps = ff_max(simulation.recording.step_count - 1.0, 1.0);
         double agent_steps = ff_max((double)simulation.watch.collisions.agent_steps, 1.0);
-        trial->navigation_ms = 1e3 * (spent->neighbours + spent->navigation) / steps;
+        trial->navigation_ms = 1e3 * (spent->snapshot + spent->neighbours + spent->navigation) / steps;
         trial->total_us = 1e6 * spent->total / agent_steps;
     }
     ff_simulation_free(&simulation);

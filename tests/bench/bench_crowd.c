@@ -9,6 +9,7 @@
 #define DENSITY (1.0 / 3.0) /* 1/m^2 */
 #define WARM 30
 #define STEPS 90
+#define MATRIX_ROUNDS 10
 
 static double cpu_time(void)
 {
@@ -27,6 +28,20 @@ static ff_crowd *new_crowd(const ff_pack *pack, uint32_t agents)
     return crowd;
 }
 
+/* us per agent, of CPU time. */
+static double measure_matrices(ff_crowd *crowd, uint32_t agents)
+{
+    ff_error error;
+    ff_matrix *out = ff_calloc((size_t)agents * FF_JOINT_COUNT, sizeof *out);
+    assert_non_null(out);
+    double start = cpu_time();
+    for (int i = 0; i < MATRIX_ROUNDS; ++i)
+        FF_ASSERT_OK(ff_crowd_matrices(crowd, ff_v2(0.0, 0.0), out, agents, &error), error);
+    double spent = cpu_time() - start;
+    free(out);
+    return spent * 1e6 / ((double)agents * MATRIX_ROUNDS);
+}
+
 /* Steps until everybody stands, or `most`; prints CPU time, split as the phases' wall-clock times are. */
 static void measure(ff_crowd *crowd, const char *name, uint32_t agents, uint32_t warm, uint32_t most)
 {
@@ -39,10 +54,12 @@ static void measure(ff_crowd *crowd, const char *name, uint32_t agents, uint32_t
     double total = (cpu_time() - start) * 1e6 / ((double)agents * most);
     ff_crowd_timings after = ff_crowd_time_spent(crowd);
     double wall = after.total - before.total, scale = wall > 0.0 ? total / wall : 0.0;
-    printf("%-8s %6u agents: %6.2f us per agent and step (neighbours %.2f, navigation %.2f, body and "
-           "synthesis %.2f)\n",
-           name, agents, total, (after.neighbours - before.neighbours) * scale,
-           (after.navigation - before.navigation) * scale, (after.synthesis - before.synthesis) * scale);
+    double near = after.snapshot + after.neighbours - before.snapshot - before.neighbours;
+    printf("%-8s %6u agents: %6.2f us per agent and step (neighbours %.2f, navigation %.2f, bodies %.2f, "
+           "synthesis %.2f), matrices %.2f\n",
+           name, agents, total, near * scale, (after.navigation - before.navigation) * scale,
+           (after.bodies - before.bodies) * scale, (after.synthesis - before.synthesis) * scale,
+           measure_matrices(crowd, agents));
     ff_crowd_destroy(crowd);
 }
 
