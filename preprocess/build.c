@@ -272,6 +272,18 @@ static void drop_unused(gathered *g, ff_example_set *set)
     g->count = kept;
 }
 
+/* Tell when the pack walks with less than a whole cycle that closes well. */
+static void warn_of_level(build *b, const ff_example_set *set)
+{
+    const ff_example *e = &set->items[set->gait.gait.example];
+    if (set->level == FF_LEVEL_FIRM) return;
+    snprintf(b->result->warning, sizeof b->result->warning,
+             "no clip has a whole straight walking cycle that closes well; the pack walks with %.90s, of "
+             "which closing "
+             "moves a joint by %.1f cm: add longer walks straight ahead",
+             e->name, 100.0 * (double)e->loop.moved);
+}
+
 static ff_status add_all(build *b, gathered *g, ff_example_set *set, ff_error *error)
 {
     ff_pack_content *content = &b->result->content;
@@ -281,6 +293,7 @@ static ff_status add_all(build *b, gathered *g, ff_example_set *set, ff_error *e
         status = ff_actions_select(g->clips, g->count, wanted, b->tasks, error);
         if (status == FF_OK) drop_unused(g, set);
     }
+    if (status == FF_OK) warn_of_level(b, set);
     if (status == FF_OK) status = ff_pack_add_examples(content, set, error);
     if (status == FF_OK) status = ff_pack_add_gait(content, &b->rig, set, b->tasks, error);
     if (status == FF_OK)

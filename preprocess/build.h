@@ -22,9 +22,10 @@ typedef struct ff_build_result {
     ff_pack_content content;
     ff_error *skipped; /* why clips were left out, in the order of the clips */
     int skipped_count;
-    int reused;   /* results of stages that came from the cache ... */
-    int computed; /* ... and that did not */
-    int unkept;   /* that could not be written to it */
+    int reused;        /* results of stages that came from the cache ... */
+    int computed;      /* ... and that did not */
+    int unkept;        /* that could not be written to it */
+    char warning[320]; /* what is not as one would wish, although the pack is whole; "" = nothing */
 } ff_build_result;
 
 ff_build_settings ff_build_settings_default(void);

@@ -4,6 +4,7 @@
 #include "mocap/generator/generator.h"
 #include "preprocess/carry.h"
 #include "preprocess/code_version.h"
+#include "preprocess/example_judge.h"
 #include "preprocess/plant_edit.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
@@ -284,6 +285,17 @@ ff_status ff_build_clip_actions(ff_build_clip *clip, const ff_build_shared *shar
                           &clip->error);
 }
 
+/* Is there a straight walk among the whole cycles that a pack can walk with? */
+static bool has_firm_walk(const ff_rig *rig, const ff_cycles *cycles)
+{
+    char why[96];
+    for (int i = 0; i < cycles->count; ++i)
+        if (ff_example_is_model(&cycles->items[i]) &&
+            ff_example_judge(rig, &cycles->items[i], why, sizeof why))
+            return true;
+    return false;
+}
+
 static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
 {
     const ff_plants *plants = &clip->plants;
@@ -296,6 +308,9 @@ static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
     if (status == FF_OK && walks)
         status =
             ff_cycles_cut(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles, &clip->error);
+    if (status == FF_OK && walks && !has_firm_walk(rig, &clip->cycles))
+        status = ff_cycles_cut_half(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
+                                    &clip->error);
     if (status == FF_OK && walks)
         status = ff_cycles_cut_idle(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
                                     &clip->error);

@@ -51,6 +51,7 @@ static void print_json(const ff_build_result *built, const char *path)
                   (json_int_t)c->actions.count, "examples", (json_int_t)c->examples.count, "simplices",
                   (json_int_t)c->simplices.count, "hull_corners", (json_int_t)c->hull.count, "reused",
                   built->reused, "computed", built->computed, "skipped", skipped);
+    if (root && *built->warning) json_object_set_new(root, "warning", json_string(built->warning));
     if (root) json_dumpf(root, stdout, JSON_INDENT(1));
     printf("\n");
     json_decref(root);
@@ -99,6 +100,7 @@ static int build_and_write(const ff_operands *operands, const ff_build_settings 
     ff_status status = build_from(operands, settings, &built, &error);
     if (status == FF_OK || !settings->strict) print_left_out(&built);
     if (status == FF_OK) status = check_and_write(&built.content, path, &size, &error);
+    if (status == FF_OK && *built.warning) fprintf(stderr, PROGRAM ": %s\n", built.warning);
     if (built.unkept > 0)
         fprintf(stderr,
                 PROGRAM ": %s could not be written to; the next build will do this one's work again\n",

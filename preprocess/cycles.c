@@ -30,8 +30,11 @@ void ff_cycles_free(ff_cycles *cycles)
 /* ------------------------------------------------------------------------------------------------------ keys */
 
 typedef struct cycle {
-    int start, length; /* frames of the motion */
-    double key[4];     /* frames after start: left contact, right off, right contact, left off */
+    int start,
+        length; /* frames of the motion: from contact to the same foot's next, of half a cycle to the other's */
+    bool half;
+    double key[4]; /* frames after the left contact: left contact, right off, right contact, left off */
+    int left;      /* frames from start to the left contact */
     int gait;
 } cycle;
 
@@ -50,6 +53,7 @@ static bool find_keys(const ff_plants *plants, int index, double frame_time, cyc
     int next = next_of(plants, index, FF_LEFT);
     if (left->cut_start || left->cut_end || next < 0) return false;
     int start = left->start, end = plants->items[next].start;
+    *out = (cycle){0};
     double period = end - start;
     if (period * frame_time < PERIOD_MIN || period * frame_time > PERIOD_MAX || left->end >= end)
         return false;
@@ -79,6 +83,34 @@ static bool find_keys(const ff_plants *plants, int index, double frame_time, cyc
     return out->key[3] < out->key[2] && out->key[2] < out->key[1] && out->key[1] < period;
 }
 
+/* Keys of half a cycle that starts with plant index, of either foot: it lands, the other one leaves and lands in its turn.
+ * What follows is taken to be the mirror image. */
+static bool find_half_keys(const ff_plants *plants, int index, double frame_time, cycle *out)
+{
+    const ff_plant *first = &plants->items[index], *before = NULL, *second = NULL;
+    if (first->cut_start) return false;
+    for (int i = 0; i < plants->count; ++i) {
+        const ff_plant *plant = &plants->items[i];
+        if (plant->foot == first->foot) continue;
+        if (plant->start <= first->start) before = plant;
+        if (plant->start > first->start && !second) second = plant;
+    }
+    if (!before || !second || second->cut_start || before->level != first->level ||
+        first->level != second->level)
+        return false;
+    int length = second->start - first->start, off = before->end + 1 - first->start;
+    double period = 2.0 * length * frame_time;
+    if (off <= 0 || off >= length || first->end < second->start) return false;
+    if (period < PERIOD_MIN || period > PERIOD_MAX) return false;
+    *out = (cycle){.start = first->start,
+                   .length = length,
+                   .half = true,
+                   .key = {0.0, off, length, length + off},
+                   .left = first->foot == FF_LEFT ? 0 : length,
+                   .gait = FF_GAIT_WALK};
+    return true;
+}
+
 /* People drift a little; a straight example must be straight, or no blend is (synthesis study, section 6). */
 static void straighten(ff_pack_example *record)
 {
@@ -92,11 +124,11 @@ static void straighten(ff_pack_example *record)
  * contact itself is where poses change fastest. first, last: the frames that may be used. */
 static ff_stretch best_cut(const ff_rig *rig, const ff_motion *motion, const cycle *c, int first, int last)
 {
-    ff_stretch best = {c->start, c->length};
+    ff_stretch best = {c->start, c->length, c->half};
     int step = (int)ceil(CUT_STEP / motion->frame_time), reach = c->length / 2;
     double least = ff_loop_cost(rig, motion, &best);
     for (int d = -reach / step; d <= reach / step; ++d) {
-        ff_stretch here = {c->start + d * step, c->length};
+        ff_stretch here = {c->start + d * step, c->length, c->half};
         if (d == 0 || here.start < first || here.start + here.length > last) continue;
         double cost = ff_loop_cost(rig, motion, &here);
         if (cost < least) least = cost, best = here;
@@ -104,7 +136,7 @@ static ff_stretch best_cut(const ff_rig *rig, const ff_motion *motion, const cyc
     ff_stretch middle = best;
     int slack = (int)floor(CUT_SLACK / motion->frame_time);
     for (int d = -slack; d <= slack; ++d) {
-        ff_stretch here = {middle.start, c->length + d};
+        ff_stretch here = {middle.start, c->length + d, c->half};
         if (d == 0 || here.start + here.length > last) continue;
         double cost = ff_loop_cost(rig, motion, &here);
         if (cost < least) least = cost, best = here;
@@ -115,117 +147,74 @@ static ff_stretch best_cut(const ff_rig *rig, const ff_motion *motion, const cyc
 static ff_status make_example(const ff_rig *rig, const ff_motion *motion, const cycle *c, ff_stretch stretch,
                               ff_example *out, ff_error *error)
 {
-    ff_steady_root root = ff_steady_root_fit(motion, &stretch);
-    double contact = (c->start - stretch.start) / (double)stretch.length;
+    ff_steady_root root = ff_steady_root_of(motion, &stretch);
+    double parts = c->half ? 2.0 : 1.0;
+    double contact = (c->start + c->left - stretch.start) / (parts * stretch.length);
     ff_status status = ff_loop_close(rig, motion, &stretch, &root, contact - floor(contact), out, error);
     if (status != FF_OK) return status;
     ff_pack_example *record = &out->record;
     record->gait = (uint32_t)c->gait;
+    if (c->half) record->flags |= FF_EXAMPLE_LOOSE;
     for (int k = 0; k < 4; ++k)
-        record->key[k] = (float)(c->key[k] / c->length);
+        record->key[k] = (float)(c->key[k] / (parts * c->length));
     straighten(record);
     ff_loop_find_contact_kick(rig, out);
     return FF_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------------ idle */
+/* ---------------------------------------------------------------------------------------------------- cycles */
 
-#define IDLE_MIN 2.0 /* s */
-#define IDLE_MAX 4.0
-#define IDLE_STEP 0.1
+typedef bool find_keys_of(const ff_plants *plants, int index, double frame_time, cycle *out);
 
-/* Feet side by side: a lunge or a wide stance is no way to wait. */
-static bool feet_together(const ff_plant *left, const ff_plant *right, double heading)
+/* The cycle that begins with a plant is added, or counted as rejected. */
+static ff_status add_cycle(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                           int rest_frames, int index, find_keys_of *find, const char *clip_name,
+                           ff_cycles *out, ff_error *error)
 {
-    ff_vec2 apart = ff_to_frame2(ff_fwd2(heading), ff_sub2(left->ball, right->ball));
-    return fabs(apart.a) < 0.15 && apart.b > 0.05 && apart.b < 0.4;
-}
-
-/* The stretch of 2 to 4 s inside [first, last] whose ends agree best; its seam, or a huge one. */
-static double best_loop(const ff_rig *rig, const ff_motion *motion, int first, int last, ff_stretch *best)
-{
-    int step = (int)ceil(IDLE_STEP / motion->frame_time);
-    double seam = 1e9;
-    for (int start = first; start < last; start += step) {
-        int shortest = (int)ceil(IDLE_MIN / motion->frame_time),
-            longest = (int)(IDLE_MAX / motion->frame_time);
-        for (int length = shortest; length <= longest && start + length <= last; length += step) {
-            ff_stretch stretch = {start, length};
-            ff_steady_root root = ff_steady_root_still(motion, &stretch);
-            double here = ff_loop_seam(rig, motion, &stretch, &root);
-            if (here < seam) seam = here, *best = stretch;
-        }
-    }
-    return seam;
-}
-
-ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                             int rest_frames, const char *clip_name, ff_cycles *out, ff_error *error)
-{
-    ff_stretch best = {0, 0}, here;
-    double seam = 1e9;
-    for (int i = 0; i < plants->count; ++i) {
-        const ff_plant *left = &plants->items[i];
-        if (left->foot != FF_LEFT || left->flat_start < 0) continue;
-        for (int k = 0; k < plants->count; ++k) {
-            const ff_plant *right = &plants->items[k];
-            if (right->foot != FF_RIGHT || right->flat_start < 0) continue;
-            int first = left->flat_start > right->flat_start ? left->flat_start : right->flat_start;
-            int last = left->flat_end < right->flat_end ? left->flat_end : right->flat_end;
-            if (first < rest_frames) first = rest_frames;
-            if ((last - first) * motion->frame_time < IDLE_MIN) continue;
-            if (!feet_together(left, right, motion->root[first].z)) continue;
-            if (ff_breaks_within(&plants->breaks, first, last)) continue;
-            double found = best_loop(rig, motion, first, last, &here);
-            if (found < seam) seam = found, best = here;
-        }
-    }
-    if (best.length == 0) return FF_OK;
+    cycle c;
+    int margin = (int)ceil(END_MARGIN / motion->frame_time);
     ff_example *example = &out->items[out->count];
-    ff_steady_root root = ff_steady_root_still(motion, &best);
-    ff_status status = ff_loop_close(rig, motion, &best, &root, 0.0, example, error);
+    ++out->rejected;
+    if (!find(plants, index, motion->frame_time, &c) || c.start < rest_frames + margin ||
+        c.start + c.length + margin > motion->frame_count ||
+        ff_breaks_within(&plants->breaks, c.start, c.start + c.length))
+        return FF_OK;
+    ff_stretch cut = best_cut(rig, motion, &c, rest_frames + margin, motion->frame_count - margin);
+    ff_status status = make_example(rig, motion, &c, cut, example, error);
     if (status != FF_OK) return status;
-    const float keys[4] = {0.0f, 0.1f, 0.5f, 0.6f};
-    memcpy(example->record.key, keys, sizeof keys);
-    example->record.flags = FF_EXAMPLE_IDLE;
-    snprintf(example->name, sizeof example->name, "%.60s@%d idle", clip_name, best.start);
-    ff_example_find_feet(rig, example);
+    snprintf(example->name, sizeof example->name, "%.60s@%d%s", clip_name, c.start,
+             c.half ? " and its mirror image" : "");
+    if (ff_example_find_feet(rig, example) < LOCK_MIN) {
+        ff_example_free(example);
+        return FF_OK;
+    }
     ++out->count;
+    --out->rejected;
     return FF_OK;
 }
-
-/* ---------------------------------------------------------------------------------------------------- cycles */
 
 ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int rest_frames,
                         const char *clip_name, ff_cycles *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
-    out->items = ff_calloc((size_t)plants->count + 1, sizeof *out->items); /* + 1: an idle loop */
+    /* Whole ones begin with a left foot, half ones with either; + 1: an idle loop. */
+    out->items = ff_calloc(2 * (size_t)plants->count + 1, sizeof *out->items);
     if (!out->items) return ff_fail(error, FF_ERR_NO_MEMORY, "the gait cycles of %s", clip_name);
-    int margin = (int)ceil(END_MARGIN / motion->frame_time);
+    ff_status status = FF_OK;
+    for (int i = 0; i < plants->count && status == FF_OK; ++i)
+        if (plants->items[i].foot == FF_LEFT)
+            status = add_cycle(rig, motion, plants, rest_frames, i, find_keys, clip_name, out, error);
+    if (status != FF_OK) ff_cycles_free(out);
+    return status;
+}
+
+ff_status ff_cycles_cut_half(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                             int rest_frames, const char *clip_name, ff_cycles *out, ff_error *error)
+{
     for (int i = 0; i < plants->count; ++i) {
-        cycle c;
-        if (plants->items[i].foot != FF_LEFT) continue;
-        if (!find_keys(plants, i, motion->frame_time, &c) || c.start < rest_frames + margin ||
-            c.start + c.length + margin > motion->frame_count ||
-            ff_breaks_within(&plants->breaks, c.start, c.start + c.length)) {
-            ++out->rejected;
-            continue;
-        }
-        ff_example *example = &out->items[out->count];
-        ff_stretch cut = best_cut(rig, motion, &c, rest_frames + margin, motion->frame_count - margin);
-        ff_status status = make_example(rig, motion, &c, cut, example, error);
-        if (status != FF_OK) {
-            ff_cycles_free(out);
-            return status;
-        }
-        snprintf(example->name, sizeof example->name, "%.60s@%d", clip_name, c.start);
-        if (ff_example_find_feet(rig, example) >= LOCK_MIN) {
-            ++out->count;
-        } else {
-            ff_example_free(example);
-            ++out->rejected;
-        }
+        ff_status status =
+            add_cycle(rig, motion, plants, rest_frames, i, find_half_keys, clip_name, out, error);
+        if (status != FF_OK) return status;
     }
     return FF_OK;
 }

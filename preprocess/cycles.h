@@ -15,6 +15,11 @@ typedef struct ff_cycles {
 ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int rest_frames,
                         const char *clip_name, ff_cycles *out, ff_error *error);
 
+/* Cycles made of one step and its mirror image, for clips that show no whole cycle that is fit to be used: marked
+ * FF_EXAMPLE_LOOSE. Appended to out, after ff_cycles_cut. The caller frees out after a failure too. */
+ff_status ff_cycles_cut_half(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
+                             int rest_frames, const char *clip_name, ff_cycles *out, ff_error *error);
+
 /* Loops of standing still in the clip: at most one, the quietest, of 2 to 4 s. Appended to out. */
 ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
                              int rest_frames, const char *clip_name, ff_cycles *out, ff_error *error);

@@ -142,7 +142,8 @@ ff_status ff_derive_walk(const ff_rig *rig, const ff_example *base, const ff_gai
     ff_status status = ff_example_alloc(out, (int)floor(p.period * FF_PACK_RATE + 0.5), error);
     if (status != FF_OK) return status;
     out->record = base->record;
-    out->record.flags = (base->record.flags | FF_EXAMPLE_DERIVED) & ~(uint32_t)FF_EXAMPLE_MIRRORED;
+    out->record.flags =
+        (base->record.flags | FF_EXAMPLE_DERIVED) & ~(uint32_t)(FF_EXAMPLE_MIRRORED | FF_EXAMPLE_LOOSE);
     out->record.period = (float)p.period;
     out->record.v_forward = (float)target->forward;
     out->record.v_left = (float)target->left;

@@ -184,11 +184,7 @@ ff_status ff_example_mirror(const ff_rig *rig, const ff_example *example, ff_exa
         ff_quat from[FF_ROLE_JOINT_COUNT], *to = out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
         ff_vec3 hips;
         ff_example_sample(example, start + k / (double)out->frame_count, &hips, from);
-        out->hips[k] = ff_v3(hips.x, -hips.y, hips.z);
-        for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
-            ff_quat q = from[ff_role_mirror((ff_role)r)];
-            to[r] = (ff_quat){q.x, -q.y, -q.z, q.w};
-        }
+        ff_pose_mirror(&hips, from, &out->hips[k], to);
     }
     ff_example_find_feet(rig, out);
     return FF_OK;

@@ -8,6 +8,11 @@
 #define SEAM_OTHER 0.08
 #define WANDER 0.2
 #define SEAM_IDLE 0.015
+/* For want of anything better: the seam is smoothed, but may be seen. */
+#define LOOSE_MOVED 0.10
+#define LOOSE_WANDER 0.4
+#define LOOSE_LOCK 0.25
+#define LOOSE_UPRIGHT 0.85
 #define RESTLESS 0.03 /* m */
 #define LOCK_WALK                                                                                            \
     0.4 /* of the cycle; people stand on a foot for 0.6 of it, and a shorter lock comes of a capture fault */
@@ -21,6 +26,12 @@
 bool ff_example_is_straight(const ff_example *e)
 {
     return e->record.v_left == 0.0f && e->record.turn_rate == 0.0f;
+}
+
+bool ff_example_is_model(const ff_example *e)
+{
+    return e->record.gait == FF_GAIT_WALK && !(e->record.flags & FF_EXAMPLE_IDLE) &&
+           ff_example_is_straight(e) && e->record.v_forward >= FF_MODEL_SLOWEST;
 }
 
 static double mean_height(const ff_example *e)
@@ -120,5 +131,22 @@ bool ff_example_judge(const ff_rig *rig, const ff_example *e, char *why, size_t 
     at_least(&v, shortest_lock(e), LOCK_WALK, 100.0, "a foot stands for % of the cycle");
     at_most(&v, speed, WALK_SPEED, 1.0, "walks at m/s");
     at_most(&v, fabs((double)e->record.turn_rate), WALK_TURN, 1.0 / FF_DEG, "turns by degrees per second");
+    return v.good;
+}
+
+bool ff_example_judge_loosely(const ff_rig *rig, const ff_example *e, char *why, size_t size)
+{
+    verdict v = {why, size, true};
+    if (!ff_example_is_model(e)) {
+        snprintf(why, size, "no straight walk");
+        return false;
+    }
+    at_least(&v, mean_height(e), LOOSE_UPRIGHT * rig->offset[FF_ROLE_HIPS].y, 100.0, "crouches: hips at cm");
+    at_most(&v, (double)e->loop.moved, LOOSE_MOVED, 100.0, "closing moves a joint by cm");
+    at_most(&v, (double)e->loop.jump, FF_LOOP_JUMP, 1000.0, "still jumps by mm");
+    at_most(&v, e->wander, LOOSE_WANDER, 1.0 / FF_DEG, "no steady turn: heading wanders by degrees");
+    at_most(&v, crossing(e), CROSSED, 100.0, "legs cross by cm");
+    at_least(&v, shortest_lock(e), LOOSE_LOCK, 100.0, "a foot stands for % of the cycle");
+    at_most(&v, (double)e->record.v_forward, WALK_SPEED, 1.0, "walks at m/s");
     return v.good;
 }

@@ -12,7 +12,13 @@
 /* Straight ahead or back, without turning. */
 bool ff_example_is_straight(const ff_example *example);
 
+/* A walk straight ahead that is fast enough to make other gaits from, if it is good enough. */
+#define FF_MODEL_SLOWEST 0.5f /* m/s */
+bool ff_example_is_model(const ff_example *example);
+
 /* May the pack use it? If not, why is a sentence with the figure that is too high or too low. */
 bool ff_example_judge(const ff_rig *rig, const ff_example *example, char *why, size_t size);
+/* The same with the wider limits for want of anything better (FF_EXAMPLE_LOOSE): straight walks only. */
+bool ff_example_judge_loosely(const ff_rig *rig, const ff_example *example, char *why, size_t size);
 
 #endif

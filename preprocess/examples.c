@@ -3,6 +3,7 @@
 #include "preprocess/derive.h"
 #include "preprocess/example_judge.h"
 #include "preprocess/example_kinds.h"
+#include "preprocess/examples_why.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 
@@ -113,16 +114,26 @@ static int find_base(const candidate *list, int count, int *chosen)
     return best;
 }
 
-/* Usable? If not, the set remembers why. */
-static bool judge(const ff_rig *rig, const ff_example *e, ff_example_set *set)
+/* Usable? If not, the set remembers why, of each cycle once. */
+static bool judge(const ff_rig *rig, ff_example *e, ff_example_set *set)
 {
+    bool half = (e->record.flags & FF_EXAMPLE_LOOSE) != 0;
     ff_left_out *out = &set->left_out[set->left_out_count];
+    if (half && set->level < FF_LEVEL_HALF) return false;
     if (ff_example_judge(rig, e, out->why, sizeof out->why)) return true;
+    if (set->level == FF_LEVEL_LOOSE) {
+        char why[sizeof out->why];
+        if (!ff_example_judge_loosely(rig, e, why, sizeof why)) return false;
+        e->record.flags |= FF_EXAMPLE_LOOSE;
+        return true;
+    }
+    if (set->level == FF_LEVEL_HALF && !half) return false; /* it was told */
     memcpy(out->name, e->name, sizeof out->name);
     ++set->left_out_count;
     return false;
 }
 
+/* The cycles that may be used at the set's level. */
 static int list_candidates(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
                            candidate *list, ff_example_set *set)
 {
@@ -137,6 +148,32 @@ static int list_candidates(const ff_rig *rig, ff_cycles *cycles, const int *subj
     }
     qsort(list, (size_t)count, sizeof *list, by_cost);
     return count;
+}
+
+/* Of those that close badly the best is enough: everything else is made from it. */
+static int keep_best_loose(candidate *list, int count)
+{
+    int kept = 0;
+    bool seen = false;
+    for (int i = 0; i < count; ++i) {
+        bool loose = (list[i].example->record.flags & FF_EXAMPLE_LOOSE) != 0;
+        if (!loose || !seen) list[kept++] = list[i];
+        seen = seen || loose;
+    }
+    return kept;
+}
+
+/* The first level at which there is a walk to make others from. Returns -1 when there is none at any. */
+static int find_candidates(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
+                           candidate *list, ff_example_set *set)
+{
+    for (set->level = FF_LEVEL_FIRM; set->level <= FF_LEVEL_LOOSE; ++set->level) {
+        int count = list_candidates(rig, cycles, subject, clip_count, list, set);
+        if (set->level == FF_LEVEL_LOOSE) count = keep_best_loose(list, count);
+        for (int i = 0; i < count; ++i)
+            if (ff_example_is_model(list[i].example)) return count;
+    }
+    return -1;
 }
 
 /* ---------------------------------------------------------------------------------------------- the set itself */
@@ -192,7 +229,8 @@ static const ff_example *find_model(const ff_example_set *set, uint32_t gait, fl
     const ff_example *best = NULL;
     for (int i = 0; i < set->count; ++i) {
         const ff_example *e = &set->items[i];
-        if (e->record.gait != gait || !ff_example_is_straight(e) || e->record.v_forward < 0.5f) continue;
+        if (e->record.gait != gait || !ff_example_is_straight(e) || e->record.v_forward < FF_MODEL_SLOWEST)
+            continue;
         if (e->record.flags & FF_EXAMPLE_DERIVED) continue;
         if (!best || fabsf(e->record.v_forward - easy) < fabsf(best->record.v_forward - easy)) best = e;
     }
@@ -288,9 +326,7 @@ static ff_status fill_set(const ff_rig *rig, candidate *list, int count, const i
     if (status == FF_OK && !model)
         return ff_fail(
             error, FF_ERR_NO_DATA,
-            "no clip has a whole straight walking cycle (left contact to left contact) that closes within "
-            "%.0f cm; add longer walks",
-            100.0 * 2.0 * FF_LOOP_MOVED_STRAIGHT);
+            "no straight walk to build on is left: slower ones of nearly the same speed close better");
     char name[sizeof model->name] = "";
     if (status == FF_OK) memcpy(name, model->name, sizeof name);
     if (status == FF_OK) status = fit_gait(rig, list, count, subject, model, out, error);
@@ -312,11 +348,12 @@ ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *su
     candidate *list = ff_calloc(all, sizeof *list);
     int *chosen = ff_calloc(all, sizeof *chosen);
     out->items = ff_calloc(2 * (FF_EXAMPLES_MAX_WALKS + FF_EXAMPLES_MAX_RUNS), sizeof *out->items);
-    out->left_out = ff_calloc(all, sizeof *out->left_out);
+    out->left_out = ff_calloc(all + 1, sizeof *out->left_out);
     ff_status status;
     if (list && chosen && out->items && out->left_out) {
-        int count = list_candidates(rig, cycles, subject, clip_count, list, out);
-        status = fill_set(rig, list, count, subject, chosen, out, error);
+        int count = find_candidates(rig, cycles, subject, clip_count, list, out);
+        status = count < 0 ? ff_examples_fail(rig, cycles, clip_count, error)
+                           : fill_set(rig, list, count, subject, chosen, out, error);
     } else {
         status = ff_fail(error, FF_ERR_NO_MEMORY, "choosing among %zu gait cycles", all);
     }

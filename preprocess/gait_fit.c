@@ -4,6 +4,7 @@
 
 #define FEW 3     /* walks, to fit a law to */
 #define NEAR 0.02 /* m/s or step ratio: walks as fast as the clip say nothing about a slope */
+#define STEEP 5.0 /* a slope that no gait has: the walks are too alike, or no walks */
 
 /* Of people in general (gait facts: step length grows as speed^0.52; stance shrinks by 0.07 per m/s; the study's scaling
  * for the rest): what holds when the clips do not tell. */
@@ -171,6 +172,7 @@ static void add_point(slope_fit *fit, double x, double y)
 static float slope_of(const slope_fit *fit, double otherwise, float *residual)
 {
     double slope = fit->count >= FEW && fit->xx > fit->count * NEAR * NEAR ? fit->xy / fit->xx : otherwise;
+    if (fabs(slope) > STEEP) slope = otherwise;
     double rest = fit->yy - 2.0 * slope * fit->xy + slope * slope * fit->xx;
     *residual = (float)(fit->count > 0 ? sqrt(ff_max(rest, 0.0) / fit->count) : 0.0);
     return (float)slope;
@@ -219,7 +221,8 @@ static void add_ball_error(const ff_gait_fit *fit, const walk_paths *walk, doubl
 static bool is_model(const ff_example *e)
 {
     return e->record.gait == FF_GAIT_WALK && e->record.v_forward > 0.3f && e->record.v_left == 0.0f &&
-           e->record.turn_rate == 0.0f && !(e->record.flags & (FF_EXAMPLE_IDLE | FF_EXAMPLE_DERIVED));
+           e->record.turn_rate == 0.0f &&
+           !(e->record.flags & (FF_EXAMPLE_IDLE | FF_EXAMPLE_DERIVED | FF_EXAMPLE_LOOSE));
 }
 
 static void describe_clip(const ff_rig *rig, const walk_paths *clip, ff_gait_fit *out)

@@ -29,12 +29,13 @@ static double clip_seconds(const ff_pack *pack, const ff_pack_clip *clip)
 
 static const char *example_kind(const ff_pack_example *example, char *text, size_t size)
 {
-    snprintf(text, size, "%s%s%s",
+    snprintf(text, size, "%s%s%s%s",
              example->flags & FF_EXAMPLE_IDLE ? "idle"
              : example->gait                  ? "run"
                                               : "walk",
              example->flags & FF_EXAMPLE_MIRRORED ? ", mirrored" : "",
-             example->flags & FF_EXAMPLE_DERIVED ? ", made up" : "");
+             example->flags & FF_EXAMPLE_DERIVED ? ", made up" : "",
+             example->flags & FF_EXAMPLE_LOOSE ? ", second best" : "");
     return text;
 }
 
@@ -261,16 +262,17 @@ static json_t *examples_json(const ff_pack *pack)
         const ff_pack_loop none = {0}, *loop = pack->loop_count ? &pack->loops[i] : &none;
         json_array_append_new(
             list,
-            json_pack("{s:s, s:s, s:b, s:b, s:b, s:f, s:f, s:f, s:f, s:f, s:[f, f, f, f], s:{s:f, s:f, s:f, "
-                      "s:f, s:f}}",
-                      "name", ff_pack_string(pack, e->name), "gait", e->gait ? "run" : "walk", "idle",
-                      (e->flags & FF_EXAMPLE_IDLE) != 0, "mirrored", (e->flags & FF_EXAMPLE_MIRRORED) != 0,
-                      "derived", (e->flags & FF_EXAMPLE_DERIVED) != 0, "v_forward", (double)e->v_forward,
-                      "v_left", (double)e->v_left, "turn_rate", (double)e->turn_rate, "period",
-                      (double)e->period, "seam", (double)e->seam, "key", (double)e->key[0], (double)e->key[1],
-                      (double)e->key[2], (double)e->key[3], "loop", "cut", (double)loop->cut, "moved",
-                      (double)loop->moved, "jump", (double)loop->jump, "cut_kick", (double)loop->cut_kick,
-                      "contact_kick", (double)loop->contact_kick));
+            json_pack(
+                "{s:s, s:s, s:b, s:b, s:b, s:b, s:f, s:f, s:f, s:f, s:f, s:[f, f, f, f], s:{s:f, s:f, s:f, "
+                "s:f, s:f}}",
+                "name", ff_pack_string(pack, e->name), "gait", e->gait ? "run" : "walk", "idle",
+                (e->flags & FF_EXAMPLE_IDLE) != 0, "mirrored", (e->flags & FF_EXAMPLE_MIRRORED) != 0,
+                "derived", (e->flags & FF_EXAMPLE_DERIVED) != 0, "loose", (e->flags & FF_EXAMPLE_LOOSE) != 0,
+                "v_forward", (double)e->v_forward, "v_left", (double)e->v_left, "turn_rate",
+                (double)e->turn_rate, "period", (double)e->period, "seam", (double)e->seam, "key",
+                (double)e->key[0], (double)e->key[1], (double)e->key[2], (double)e->key[3], "loop", "cut",
+                (double)loop->cut, "moved", (double)loop->moved, "jump", (double)loop->jump, "cut_kick",
+                (double)loop->cut_kick, "contact_kick", (double)loop->contact_kick));
     }
     return list;
 }

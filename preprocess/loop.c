@@ -64,6 +64,28 @@ ff_steady_root ff_steady_root_fit(const ff_motion *motion, const ff_stretch *c)
     return root;
 }
 
+ff_steady_root ff_steady_root_half(const ff_motion *motion, const ff_stretch *c)
+{
+    ff_vec3 r0 = motion->root[c->start], r1 = motion->root[c->start + c->length];
+    ff_vec2 chord = ff_v2(r1.x - r0.x, r1.y - r0.y);
+    ff_steady_root root = {.heading = 0.5 * (r0.z + r1.z)};
+    ff_vec2 axis = ff_fwd2(root.heading);
+    root.velocity = ff_v2(ff_dot2(chord, axis) / c->length, 0.0);
+    /* Through the middle of the chord: what is aside of it at the start is as far aside at the end. */
+    ff_vec2 middle = ff_v2(0.5 * (r0.x + r1.x), 0.5 * (r0.y + r1.y));
+    root.origin = ff_madd2(middle, axis, -0.5 * root.velocity.a * c->length);
+    double angle;
+    ff_vec2 away;
+    mean_residual(motion, c, &root, &angle, &away);
+    root.origin = ff_madd2(root.origin, axis, away.a);
+    return root;
+}
+
+ff_steady_root ff_steady_root_of(const ff_motion *motion, const ff_stretch *c)
+{
+    return c->half ? ff_steady_root_half(motion, c) : ff_steady_root_fit(motion, c);
+}
+
 static double wander(const ff_motion *motion, const ff_stretch *c, const ff_steady_root *root)
 {
     double angle, worst = 0.0, heading;
@@ -121,22 +143,47 @@ static double farthest(const ff_vec3 *p, const ff_vec3 *q)
     return most;
 }
 
-/* What is missing at the end of the cycle to be back at its start. */
+/* What is missing at the end of the cycle to be back at its start: [1] as the end sees it, [0] as the start does, which is
+ * the same, or of half a cycle its mirror image. */
 typedef struct gap {
-    ff_vec3 hips, turn[FF_ROLE_JOINT_COUNT];
+    ff_vec3 hips[2], turn[2][FF_ROLE_JOINT_COUNT];
     double mean, most; /* m, over the joints */
 } gap;
+
+/* What the end of the stretch has to meet: the pose at t, of half a cycle its mirror image. */
+static void next_pose(const ff_motion *motion, const ff_stretch *c, const ff_steady_root *root, double t,
+                      ff_vec3 *hips, ff_quat *rotations)
+{
+    ff_quat own[FF_ROLE_JOINT_COUNT];
+    ff_vec3 at;
+    residual_pose(motion, c, root, t, hips, rotations);
+    if (!c->half) return;
+    at = *hips;
+    memcpy(own, rotations, sizeof own);
+    ff_pose_mirror(&at, own, hips, rotations);
+}
+
+static void see_from_start(const ff_stretch *c, gap *g)
+{
+    ff_vec3 h = g->hips[1];
+    g->hips[0] = c->half ? ff_v3(h.x, -h.y, h.z) : h;
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
+        ff_vec3 t = g->turn[1][c->half ? ff_role_mirror((ff_role)r) : (ff_role)r];
+        g->turn[0][r] = c->half ? ff_v3(t.x, -t.y, -t.z) : t;
+    }
+}
 
 static gap measure_gap(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c,
                        const ff_steady_root *root)
 {
     ff_quat first[FF_ROLE_JOINT_COUNT], last[FF_ROLE_JOINT_COUNT];
     ff_vec3 hips0, hips1, at0[FF_BODY_COUNT], at1[FF_BODY_COUNT];
-    residual_pose(motion, c, root, 0.0, &hips0, first);
+    next_pose(motion, c, root, 0.0, &hips0, first);
     residual_pose(motion, c, root, c->length, &hips1, last);
-    gap out = {.hips = ff_sub3(hips0, hips1)};
+    gap out = {.hips = {[1] = ff_sub3(hips0, hips1)}};
     for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
-        out.turn[r] = ff_quat_log(ff_quat_mul(ff_quat_conj(last[r]), first[r]));
+        out.turn[1][r] = ff_quat_log(ff_quat_mul(ff_quat_conj(last[r]), first[r]));
+    see_from_start(c, &out);
     joints_of(rig, hips0, first, at0);
     joints_of(rig, hips1, last, at1);
     for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
@@ -154,7 +201,7 @@ static double measure_kick(const ff_rig *rig, const ff_motion *motion, const ff_
     ff_vec3 at[4][FF_BODY_COUNT], hips;
     ff_quat local[FF_ROLE_JOINT_COUNT];
     for (int i = 0; i < 4; ++i) {
-        residual_pose(motion, c, root, when[i], &hips, local);
+        (i < 2 ? next_pose : residual_pose)(motion, c, root, when[i], &hips, local);
         joints_of(rig, hips, local, at[i]);
     }
     for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
@@ -165,12 +212,31 @@ static double measure_kick(const ff_rig *rig, const ff_motion *motion, const ff_
 /* Spread the gap linearly over the stretch: half of it lies before, half after its middle. */
 static void close_pose(const gap *missing, double share, ff_vec3 *hips, ff_quat *local)
 {
-    *hips = ff_madd3(*hips, missing->hips, share - 0.5);
-    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r)
-        local[r] = ff_quat_mul(local[r], ff_quat_exp(ff_scale3(missing->turn[r], share - 0.5)));
+    double before = 0.5 * share - 0.5, after = 0.5 * share;
+    *hips = ff_madd3(ff_madd3(*hips, missing->hips[0], before), missing->hips[1], after);
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
+        ff_vec3 turn = ff_madd3(ff_scale3(missing->turn[0][r], before), missing->turn[1][r], after);
+        local[r] = ff_quat_mul(local[r], ff_quat_exp(turn));
+    }
 }
 
-/* Closed poses at near 60 Hz, frame 0 at the share `first` of the stretch. */
+/* The closed pose at a share [0, 1) of the cycle. */
+static void closed_pose(const ff_motion *motion, const ff_stretch *c, const ff_steady_root *root,
+                        const gap *missing, double share, ff_vec3 *hips, ff_quat *local)
+{
+    double within = c->half ? 2.0 * share : share;
+    bool again = within >= 1.0;
+    if (again) within -= 1.0;
+    residual_pose(motion, c, root, within * c->length, hips, local);
+    close_pose(missing, within, hips, local);
+    if (!again) return;
+    ff_quat own[FF_ROLE_JOINT_COUNT];
+    ff_vec3 at = *hips;
+    memcpy(own, local, sizeof own);
+    ff_pose_mirror(&at, own, hips, local);
+}
+
+/* Closed poses at near 60 Hz, frame 0 at the share `first` of the cycle. */
 static void fill_poses(const ff_motion *motion, const ff_stretch *c, const ff_steady_root *root,
                        const gap *missing, double first, ff_example *out)
 {
@@ -178,8 +244,7 @@ static void fill_poses(const ff_motion *motion, const ff_stretch *c, const ff_st
         double share = first + k / (double)out->frame_count;
         share -= floor(share);
         ff_quat *local = out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
-        residual_pose(motion, c, root, share * c->length, &out->hips[k], local);
-        close_pose(missing, share, &out->hips[k], local);
+        closed_pose(motion, c, root, missing, share, &out->hips[k], local);
         for (int r = 0; r < FF_ROLE_JOINT_COUNT && k > 0; ++r)
             if (ff_quat_dot(local[r], local[r - FF_ROLE_JOINT_COUNT]) < 0.0)
                 local[r] = (ff_quat){-local[r].x, -local[r].y, -local[r].z, -local[r].w};
@@ -194,6 +259,8 @@ static void measure_closing(const ff_rig *rig, const ff_motion *motion, const ff
     ff_vec3 before[FF_BODY_COUNT], after[FF_BODY_COUNT], first[FF_BODY_COUNT], hips;
     ff_quat local[FF_ROLE_JOINT_COUNT];
     *out = (ff_pack_loop){0};
+    closed_pose(motion, c, root, missing, c->half ? 0.5 : 0.0, &hips, local);
+    joints_of(rig, hips, local, first);
     for (int k = 0; k <= SAMPLES; ++k) {
         double share = k / (double)SAMPLES;
         residual_pose(motion, c, root, share * c->length, &hips, local);
@@ -201,7 +268,6 @@ static void measure_closing(const ff_rig *rig, const ff_motion *motion, const ff
         close_pose(missing, share, &hips, local);
         joints_of(rig, hips, local, after);
         out->moved = (float)ff_max((double)out->moved, farthest(before, after));
-        if (k == 0) memcpy(first, after, sizeof first);
     }
     out->jump = (float)farthest(first, after);
 }
@@ -214,7 +280,7 @@ double ff_loop_seam(const ff_rig *rig, const ff_motion *motion, const ff_stretch
 
 double ff_loop_cost(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c)
 {
-    ff_steady_root root = ff_steady_root_fit(motion, c);
+    ff_steady_root root = ff_steady_root_of(motion, c);
     gap missing = measure_gap(rig, motion, c, &root);
     return missing.mean + 0.5 * missing.most + SPEED_COUNTS * measure_kick(rig, motion, c, &root);
 }
@@ -222,7 +288,7 @@ double ff_loop_cost(const ff_rig *rig, const ff_motion *motion, const ff_stretch
 ff_status ff_loop_close(const ff_rig *rig, const ff_motion *motion, const ff_stretch *c,
                         const ff_steady_root *root, double first, ff_example *out, ff_error *error)
 {
-    double period = c->length * motion->frame_time, rate = 1.0 / motion->frame_time;
+    double period = (c->half ? 2.0 : 1.0) * c->length * motion->frame_time, rate = 1.0 / motion->frame_time;
     ff_status status = ff_example_alloc(out, (int)floor(period * FF_PACK_RATE + 0.5), error);
     if (status != FF_OK) return status;
     gap missing = measure_gap(rig, motion, c, root);

@@ -221,21 +221,25 @@ ff_status ff_motion_copy(const ff_motion *motion, ff_motion *out, ff_error *erro
     return FF_OK;
 }
 
+void ff_pose_mirror(const ff_vec3 *hips, const ff_quat *from, ff_vec3 *out, ff_quat *to)
+{
+    *out = ff_v3(hips->x, -hips->y, hips->z);
+    for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
+        ff_quat q = from[ff_role_mirror((ff_role)r)];
+        to[r] = (ff_quat){q.x, -q.y, -q.z, q.w};
+    }
+}
+
 ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error)
 {
     ff_status status = ff_motion_alloc(out, motion->frame_count, motion->frame_time, error);
     if (status != FF_OK) return status;
     out->scale = motion->scale;
     for (int k = 0; k < motion->frame_count; ++k) {
-        ff_vec3 root = motion->root[k], hips = motion->hips[k];
+        ff_vec3 root = motion->root[k];
+        size_t at = (size_t)k * FF_ROLE_JOINT_COUNT;
         out->root[k] = ff_v3(root.x, -root.y, -root.z);
-        out->hips[k] = ff_v3(hips.x, -hips.y, hips.z);
-        const ff_quat *from = motion->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
-        ff_quat *to = out->rotations + (size_t)k * FF_ROLE_JOINT_COUNT;
-        for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
-            ff_quat q = from[ff_role_mirror((ff_role)r)];
-            to[r] = (ff_quat){q.x, -q.y, -q.z, q.w};
-        }
+        ff_pose_mirror(&motion->hips[k], motion->rotations + at, &out->hips[k], out->rotations + at);
     }
     return FF_OK;
 }

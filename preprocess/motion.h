@@ -59,6 +59,10 @@ void ff_motion_sample(const ff_motion *motion, double frame, ff_vec3 *root, ff_v
 
 ff_status ff_motion_copy(const ff_motion *motion, ff_motion *out, ff_error *error);
 
+/* A pose relative to its root with left and right exchanged: hips, and local rotations [FF_ROLE_JOINT_COUNT]. from and to
+ * are not the same array. */
+void ff_pose_mirror(const ff_vec3 *hips, const ff_quat *from, ff_vec3 *out, ff_quat *to);
+
 /* The same motion with left and right exchanged (algorithms A.8). */
 ff_status ff_motion_mirror(const ff_motion *motion, ff_motion *out, ff_error *error);
 

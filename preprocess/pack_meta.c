@@ -109,6 +109,10 @@ static json_t *skipped_entry(const ff_build_clip *clip)
                      (int)clip->error.column, "why", clip->error.message);
 }
 
+static const char *const level_names[] = {[FF_LEVEL_FIRM] = "whole cycles that close well",
+                                          [FF_LEVEL_HALF] = "one step and its mirror image",
+                                          [FF_LEVEL_LOOSE] = "a cycle that closes badly"};
+
 static json_t *left_out_entries(const ff_example_set *set)
 {
     json_t *list = json_array();
@@ -127,10 +131,11 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
         json_array_append_new(clip_list, clip_entry(&clips[i], settings));
     for (int i = 0; i < skipped_count; ++i)
         json_array_append_new(skipped_list, skipped_entry(&skipped[i]));
-    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:i, s:i, s:o}, s:o, s:o}", "tool", "footfall-pack",
-                             "version", FF_VERSION, "settings", ff_settings_json(&settings->pack), "examples",
-                             "base_subject", set->base, "candidates", set->candidates, "left_out",
-                             left_out_entries(set), "clips", clip_list, "skipped", skipped_list);
+    json_t *root =
+        json_pack("{s:s, s:s, s:o, s:{s:i, s:i, s:s, s:o}, s:o, s:o}", "tool", "footfall-pack", "version",
+                  FF_VERSION, "settings", ff_settings_json(&settings->pack), "examples", "base_subject",
+                  set->base, "candidates", set->candidates, "walks_with", level_names[set->level], "left_out",
+                  left_out_entries(set), "clips", clip_list, "skipped", skipped_list);
     char *text = root ? json_dumps(root, JSON_INDENT(1)) : NULL;
     json_decref(root);
     ff_status status = text ? ff_pack_set_meta(content, text, error)

@@ -78,9 +78,12 @@ static void draw_example(ff_text *page, const ff_rig *rig, const ff_example *e)
     ff_text_add(page, "<div class=\"card example\" style=\"border-top-color:%s\"><b>",
                 r->flags & FF_EXAMPLE_DERIVED ? "#f2c14e" : (r->gait == FF_GAIT_RUN ? "#c2571a" : "#2c7a3f"));
     ff_report_text(page, e->name);
-    ff_text_add(page, "</b> forward %.2f m/s, left %.2f m/s, turns %.0f&deg;/s, cycle %.2f s%s<br>",
-                (double)r->v_forward, (double)r->v_left, (double)r->turn_rate / FF_DEG, (double)r->period,
-                r->flags & FF_EXAMPLE_DERIVED ? "; made up" : "");
+    ff_text_add(
+        page, "</b> forward %.2f m/s, left %.2f m/s, turns %.0f&deg;/s, cycle %.2f s%s<br>",
+        (double)r->v_forward, (double)r->v_left, (double)r->turn_rate / FF_DEG, (double)r->period,
+        r->flags & FF_EXAMPLE_DERIVED
+            ? "; made up"
+            : (r->flags & FF_EXAMPLE_LOOSE ? "; second best, for want of a cycle that closes well" : ""));
     draw_strips(page, rig, e);
     if (!(r->flags & FF_EXAMPLE_DERIVED))
         ff_text_add(page,
@@ -112,6 +115,7 @@ static void list_kind(ff_text *page, const ff_pack *pack, const ff_example_kind 
                 !best                               ? ""
                 : best->flags & FF_EXAMPLE_DERIVED  ? "made up"
                 : best->flags & FF_EXAMPLE_MIRRORED ? "mirrored"
+                : best->flags & FF_EXAMPLE_LOOSE    ? "second best"
                                                     : "captured");
 }
 

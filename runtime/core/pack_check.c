@@ -101,7 +101,8 @@ static ff_status check_example(const ff_pack *pack, uint32_t index, uint32_t fir
                               pack->stream_count);
     if (example->gait >= FF_GAIT_COUNT)
         return FF_PACK_REFUSE("EXMP", &example->gait, "example %u: gait %u", index, example->gait);
-    if (example->flags & ~(uint32_t)(FF_EXAMPLE_IDLE | FF_EXAMPLE_MIRRORED | FF_EXAMPLE_DERIVED))
+    if (example->flags &
+        ~(uint32_t)(FF_EXAMPLE_IDLE | FF_EXAMPLE_MIRRORED | FF_EXAMPLE_DERIVED | FF_EXAMPLE_LOOSE))
         return FF_PACK_REFUSE("EXMP", &example->flags, "example %u: unknown flags %x", index, example->flags);
     const ff_pack_stream *stream = &pack->streams[example->stream];
     if (!(stream->flags & FF_STREAM_CYCLIC) || stream->frame_count < 4 || stream->first_frame != first_frame)

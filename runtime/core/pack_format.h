@@ -280,7 +280,13 @@ typedef struct ff_pack_collider {
 
 /* Gait classes are never blended with each other. */
 enum { FF_GAIT_WALK, FF_GAIT_RUN, FF_GAIT_COUNT };
-enum { FF_EXAMPLE_IDLE = 1, FF_EXAMPLE_MIRRORED = 2, FF_EXAMPLE_DERIVED = 4 };
+enum {
+    FF_EXAMPLE_IDLE = 1,
+    FF_EXAMPLE_MIRRORED = 2,
+    FF_EXAMPLE_DERIVED = 4,
+    FF_EXAMPLE_LOOSE =
+        8 /* for want of a good cycle: one step and its mirror image, or one that closes badly */
+};
 
 /* One seamless gait cycle at constant root rates. Key phases are fractions of the cycle in [0, 1): left contact
  * (always 0), right toe-off, right contact, left toe-off: increasing for walks; idle has 0, .1, .5, .6. */

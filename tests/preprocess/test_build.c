@@ -141,7 +141,7 @@ static void clips_that_never_walk_are_refused_with_the_reason(void **state)
     ff_error error;
     settings.quiet = true;
     assert_int_equal(ff_build(&catalogue, &settings, &built, &error), FF_ERR_NO_DATA);
-    assert_non_null(strstr(error.message, "straight walking cycle"));
+    assert_non_null(strstr(error.message, "no straight walk to build on"));
     ff_build_result_free(&built);
     ff_catalogue_free(&catalogue);
     remove_folder(folder);
