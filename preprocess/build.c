@@ -5,6 +5,7 @@
 #include "preprocess/build_clip.h"
 #include "preprocess/derive_actions.h"
 #include "preprocess/pack_fill.h"
+#include "preprocess/reach.h"
 #include "preprocess/select_actions.h"
 #include "preprocess/successors.h"
 #include "runtime/core/base/fail.h"
@@ -299,6 +300,7 @@ static ff_status add_all(build *b, gathered *g, ff_example_set *set, ff_error *e
     if (status == FF_OK)
         status = ff_pack_add_clips(content, g->clips, g->count, b->settings->pack.poses.rate, error);
     if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
+    if (status == FF_OK) status = ff_pack_add_reach(content, error);
     if (status == FF_OK) status = add_skin(b, error);
     if (status == FF_OK)
         status = ff_pack_add_meta(content, b->settings, g->clips, g->count, b->clips + b->good,

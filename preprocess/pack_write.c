@@ -38,6 +38,7 @@ static const struct section_kind {
     {FF_SECTION_SHARP, sizeof(ff_pack_sharp), offsetof(ff_pack_content, sharp)},
     {FF_SECTION_EVENTS, sizeof(ff_pack_event), offsetof(ff_pack_content, events)},
     {FF_SECTION_SUCCESSORS, sizeof(ff_pack_successor), offsetof(ff_pack_content, successors)},
+    {FF_SECTION_REACH, sizeof(ff_pack_reach), offsetof(ff_pack_content, reach)},
     {FF_SECTION_SKINS, sizeof(ff_pack_skin), offsetof(ff_pack_content, skins)},
     {FF_SECTION_VERTICES, sizeof(ff_pack_vertex), offsetof(ff_pack_content, vertices)},
     {FF_SECTION_TRIANGLES, sizeof(ff_pack_triangle), offsetof(ff_pack_content, triangles)},

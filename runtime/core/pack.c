@@ -35,6 +35,7 @@ enum {
     SHARP,
     EVENTS,
     SUCCESSORS,
+    REACH,
     SKINS,
     VERTICES,
     TRIANGLES,
@@ -69,6 +70,7 @@ static const ff_section_kind kinds[KIND_COUNT] = {
     [SHARP] = {FF_SECTION_SHARP, sizeof(ff_pack_sharp), 0, 0},
     [EVENTS] = {FF_SECTION_EVENTS, sizeof(ff_pack_event), 0, 0},
     [SUCCESSORS] = {FF_SECTION_SUCCESSORS, sizeof(ff_pack_successor), 0, 0},
+    [REACH] = {FF_SECTION_REACH, sizeof(ff_pack_reach), 0, 0},
     [SKINS] = {FF_SECTION_SKINS, sizeof(ff_pack_skin), 0, 0},
     [VERTICES] = {FF_SECTION_VERTICES, sizeof(ff_pack_vertex), 0, 0},
     [TRIANGLES] = {FF_SECTION_TRIANGLES, sizeof(ff_pack_triangle), 0, 0},
@@ -140,6 +142,8 @@ static void take_views(ff_pack *pack, const ff_section_view *views)
     pack->event_count = (uint32_t)views[EVENTS].count;
     pack->successors = (const ff_pack_successor *)(const void *)views[SUCCESSORS].data;
     pack->successor_count = (uint32_t)views[SUCCESSORS].count;
+    pack->reach = (const ff_pack_reach *)(const void *)views[REACH].data;
+    pack->reach_count = (uint32_t)views[REACH].count;
     pack->skins = (const ff_pack_skin *)(const void *)views[SKINS].data;
     pack->skin_count = (uint32_t)views[SKINS].count;
     pack->vertices = (const ff_pack_vertex *)(const void *)views[VERTICES].data;

@@ -69,6 +69,8 @@ struct ff_pack {
     uint32_t triangle_count;
     const ff_pack_successor *successors;
     uint32_t successor_count;
+    const ff_pack_reach *reach; /* NULL when the pack has none */
+    uint32_t reach_count;
 };
 
 extern const ff_section_format ff_pack_file_format; /* pack.c */

@@ -142,6 +142,9 @@ static ff_status check_action(const ff_pack *pack, uint32_t index, ff_error *err
     if (!plant_known(pack, action->support_plant) || !plant_known(pack, action->swing_plant))
         return FF_PACK_REFUSE("ACTN", &action->support_plant, "action %u: plants %u and %u of %u", index,
                               action->support_plant, action->swing_plant, pack->plant_count);
+    if (action->reach != FF_REACH_NONE && action->reach >= pack->reach_count)
+        return FF_PACK_REFUSE("ACTN", &action->reach, "action %u: reach table %u of %u", index, action->reach,
+                              pack->reach_count);
     ff_status status = check_events(pack, index, error);
     return status == FF_OK ? check_successors(pack, index, error) : status;
 }

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #define FF_PACK_MAGIC 0x4b434150464f4f46u /* "FOOFPACK" read as a little-endian u64 */
-#define FF_PACK_VERSION 2u
+#define FF_PACK_VERSION 3u
 #define FF_PACK_ALIGN 64u
 #define FF_PACK_MAX_JOINTS 64u
 #define FF_PACK_RATE                                                                                         \
@@ -48,8 +48,9 @@ enum {
     FF_SECTION_VERTICES = FF_TAG('V', 'E', 'R', 'T'),   /* ff_pack_vertex */
     FF_SECTION_TRIANGLES = FF_TAG('I', 'N', 'D', 'X'),  /* ff_pack_triangle */
     FF_SECTION_SUCCESSORS = FF_TAG('N', 'E', 'X', 'T'), /* ff_pack_successor: of actions, nearest first */
+    FF_SECTION_REACH = FF_TAG('R', 'E', 'A', 'C'), /* ff_pack_reach: of actions that lead to much the same */
 };
-#define FF_PACK_SECTION_COUNT 29
+#define FF_PACK_SECTION_COUNT 30
 
 typedef struct ff_pack_header {
     uint64_t magic;
@@ -246,6 +247,7 @@ typedef struct ff_pack_action {
     uint32_t support_plant, swing_plant;       /* into PLNT */
     uint32_t first_event, event_count;         /* EVNT */
     uint32_t first_successor, successor_count; /* NEXT */
+    uint32_t reach; /* into REAC; FF_REACH_NONE: not among the actions that planners take by default */
 } ff_pack_action;
 
 /* What a foot does inside an action. The plant is in PLNT; a mirrored action's foot is the other one's. */
@@ -264,6 +266,19 @@ typedef struct ff_pack_successor {
         distance; /* m, root mean square of the joints over 5 frames round the joint, the support foot aligned */
     float cost; /* J/kg that a planner is charged for the joint (footstep study, section 4.5) */
 } ff_pack_successor;
+
+/* What it costs, J/kg, to bring the root within FF_REACH_RADIUS of a place in empty space, from where an action has ended
+ * with the left foot landed: seen from the root, along its heading (for the right one: mirrored). Place [i][k] is
+ * FF_REACH_CELL * (i - FF_REACH_CELLS / 2) ahead, the same with k to the left. By the actions that have a table alone; at
+ * most what any of a table's actions needs (footstep study, section 4.2). */
+#define FF_REACH_CELL 0.1f    /* m */
+#define FF_REACH_RADIUS 0.35f /* m */
+#define FF_REACH_UNIT 1e-3f   /* J/kg of one */
+enum { FF_REACH_CELLS = 81, FF_REACH_KINDS_MAX = 32, FF_REACH_NEVER = 0xffff };
+#define FF_REACH_NONE 0xffffffffu
+typedef struct ff_pack_reach {
+    uint16_t cost[FF_REACH_CELLS][FF_REACH_CELLS + 1]; /* the last column is not used */
+} ff_pack_reach;
 
 enum {
     FF_COLLIDER_HEAD,

@@ -1,20 +1,26 @@
-/* plan_guide.h - what is left to the goal, guessed: the heuristic of a search. Never more than it really costs. */
+/* plan_guide.h - what is left to the goal, guessed: the heuristic of a search. Never more than it really costs, but for the
+ * lattice of the reach table. */
 #ifndef FF_PLAN_GUIDE_H
 #define FF_PLAN_GUIDE_H
 
 #include "runtime/core/plan_set.h"
 
 typedef struct ff_guide {
-    float goal[2]; /* m, from the search's origin */
+    const ff_pack_reach *reach; /* or NULL */
+    float goal[2];              /* m, from the search's origin */
     float radius, rate;
+    float nearer; /* J/kg that the goal's own radius saves over the table's */
 } ff_guide;
 
 static inline ff_guide ff_guide_make(const ff_action_set *set, const ff_plan_goal *goal, ff_vec2 origin,
                                      bool table)
 {
-    (void)table;
-    return (ff_guide){
-        {(float)(goal->at.a - origin.a), (float)(goal->at.b - origin.b)}, (float)goal->radius, set->rate};
+    float wider = (float)goal->radius - FF_REACH_RADIUS;
+    return (ff_guide){.reach = table ? set->reach : NULL,
+                      .goal = {(float)(goal->at.a - origin.a), (float)(goal->at.b - origin.b)},
+                      .radius = (float)goal->radius,
+                      .rate = set->rate,
+                      .nearer = wider > 0.0f ? wider * set->rate : 0.0f};
 }
 
 static inline bool ff_guide_reached(const ff_guide *guide, const float root[2])
@@ -23,14 +29,36 @@ static inline bool ff_guide_reached(const ff_guide *guide, const float root[2])
     return a * a + b * b <= guide->radius * guide->radius;
 }
 
-/* J/kg to bring a root within the radius of the goal; ball and heading are those of the foot that has just landed. */
-static inline float ff_guide_cost(const ff_guide *guide, const float root[2], const float ball[2],
-                                  float cosine, float sine, const ff_set_action *last)
+/* From the table of the last action; past its edge, from there straight on. */
+static inline float ff_guide_reach(const ff_guide *guide, float da, float db, float distance, float cosine,
+                                   float sine, const ff_set_action *last)
 {
-    (void)ball, (void)cosine, (void)sine, (void)last;
+    enum { MIDDLE = FF_REACH_CELLS / 2 };
+    const float half = (float)(MIDDLE - 1) * FF_REACH_CELL; /* whatever cell this rounds to */
+    float beyond = 0.0f;
+    if (distance > half) {
+        beyond = (distance - half) * guide->rate;
+        da *= half / distance;
+        db *= half / distance;
+    }
+    float f = cosine * da + sine * db, l = cosine * db - sine * da;
+    if (last->support == 0) l = -l; /* the right foot has landed */
+    int i = (int)(f / FF_REACH_CELL + (float)MIDDLE + 0.5f),
+        k = (int)(l / FF_REACH_CELL + (float)MIDDLE + 0.5f);
+    return FF_REACH_UNIT * (float)guide->reach[last->reach].cost[i][k] + beyond - guide->nearer;
+}
+
+/* J/kg to bring a root within the radius of the goal, from where the last action has left it. */
+static inline float ff_guide_cost(const ff_guide *guide, const float root[2], float cosine, float sine,
+                                  const ff_set_action *last)
+{
     float a = guide->goal[0] - root[0], b = guide->goal[1] - root[1];
-    float left = sqrtf(a * a + b * b) - guide->radius;
-    return left > 0.0f ? left * guide->rate : 0.0f;
+    float distance = sqrtf(a * a + b * b), left = distance - guide->radius;
+    if (!(left > 0.0f)) return 0.0f;
+    float straight = left * guide->rate;
+    if (!guide->reach) return straight;
+    float reach = ff_guide_reach(guide, a, b, distance, cosine, sine, last);
+    return reach > straight ? reach : straight;
 }
 
 #endif

@@ -222,7 +222,7 @@ static void set_guess(search *s, node *n)
 {
     float root[2];
     root_of(s, n, root);
-    n->h = ff_guide_cost(&s->guide, root, n->at, n->cosine, n->sine, &s->set->actions[n->action]);
+    n->h = ff_guide_cost(&s->guide, root, n->cosine, n->sine, &s->set->actions[n->action]);
 }
 
 /* The node that a successor leads to. */

@@ -24,20 +24,19 @@ void ff_collider_extent(uint32_t collider, float y, float *low, float *high)
 
 /* ------------------------------------------------------------------------------------------------ which ones */
 
-static bool is_platform(const ff_pack_action *r)
+bool ff_action_is_platform(const ff_pack_action *r)
 {
     return r->mode == FF_MODE_JUMP || r->mode == FF_MODE_CROUCH || r->mode == FF_MODE_CLIMB;
 }
 
-/* Can it be walked on level ground? */
-static bool is_usable(const ff_pack_action *r)
+bool ff_action_is_usable(const ff_pack_action *r)
 {
     return r->mode != FF_MODE_CLIMB && fabsf(r->height) < FLAT && fabsf(r->rise) < LEVEL &&
            r->duration >= SHORTEST && r->duration <= LONGEST && r->collider_samples >= 2 &&
            r->support != r->swing;
 }
 
-static ff_action_class class_of(const ff_pack_action *r)
+ff_action_class ff_action_class_of(const ff_pack_action *r)
 {
     if (r->flags & FF_ACTION_TO_STANDING) return FF_CLASS_STAND;
     if (r->speed > 0.5f) return FF_CLASS_WALK;
@@ -46,12 +45,12 @@ static ff_action_class class_of(const ff_pack_action *r)
     return alpha > 60.0 * FF_DEG ? FF_CLASS_SIDE_OPEN : FF_CLASS_WALK;
 }
 
-static float cost_of(const ff_pack_action *r)
+float ff_action_cost(const ff_pack_action *r)
 {
     float cost = r->energy;
     if (r->mode == FF_MODE_RUN) cost *= RUN_FACTOR;
     if (!(r->flags & FF_ACTION_ALPHA_UNDEFINED) && (double)r->alpha < CROSS) cost *= CROSS_FACTOR;
-    if (is_platform(r)) cost += PLATFORM_COST;
+    if (ff_action_is_platform(r)) cost += PLATFORM_COST;
     return cost;
 }
 
@@ -92,7 +91,7 @@ static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
     ff_set_action *a = &set->actions[index];
     ff_vec2 turn = ff_fwd2((double)r->theta);
     *a = (ff_set_action){.duration = r->duration,
-                         .cost = cost_of(r),
+                         .cost = ff_action_cost(r),
                          .land = {r->land[0], r->land[1]},
                          .root_end = {r->root_end[0], r->root_end[1]},
                          .theta = r->theta,
@@ -100,12 +99,14 @@ static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
                          .sine = (float)turn.b,
                          .blend = fminf(BLEND, r->duration - (float)FF_TRACK_STEP),
                          .support = (uint8_t)r->support,
-                         .kind = (uint8_t)class_of(r),
-                         .pack_index = pack_index};
+                         .kind = (uint8_t)ff_action_class_of(r),
+                         .pack_index = pack_index,
+                         .reach = r->reach};
+    if (r->reach == FF_REACH_NONE && !ff_action_is_platform(r)) set->reach = NULL;
     if (r->flags & FF_ACTION_TO_STANDING) a->flags |= FF_SET_TO_STANDING;
     if (r->flags & FF_ACTION_FROM_STANDING) a->flags |= FF_SET_FROM_STANDING;
-    if (is_platform(r)) a->flags |= FF_SET_REACTIVE;
-    if (!is_platform(r) && a->duration > set->longest) set->longest = a->duration;
+    if (ff_action_is_platform(r)) a->flags |= FF_SET_REACTIVE;
+    if (!ff_action_is_platform(r) && a->duration > set->longest) set->longest = a->duration;
     take_samples(set, a, r);
 }
 
@@ -131,7 +132,7 @@ static void take_next(ff_action_set *set, uint32_t index, const uint16_t *place)
             const ff_pack_successor *s = &pack->successors[r->first_successor + i];
             const ff_pack_action *next = &pack->actions[s->action];
             if (place[s->action] == UINT16_MAX || next->mode == FF_MODE_IDLE) continue;
-            if (is_platform(next) != (reactive == 1)) continue;
+            if (ff_action_is_platform(next) != (reactive == 1)) continue;
             list[n++] = (ff_set_next){place[s->action], next->support != r->swing,
                                       set->actions[place[s->action]].cost + s->cost, 0.0f};
         }
@@ -277,8 +278,9 @@ ff_status ff_action_set_create(const ff_pack *pack, uint32_t cap, ff_action_set 
         status = ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", cap);
     else {
         set->pack = pack;
+        set->reach = pack->reach;
         for (uint32_t i = 0; i < pack->action_count; ++i)
-            usable[i] = is_usable(&pack->actions[i]);
+            usable[i] = ff_action_is_usable(&pack->actions[i]);
         set->count = ff_set_select(pack, cap, usable, chosen, &stand);
         if (set->count == 0)
             status = ff_fail(

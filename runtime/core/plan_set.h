@@ -36,6 +36,7 @@ typedef struct ff_set_action {
     uint16_t flags;
     uint8_t support, kind; /* foot; ff_action_class of the end */
     uint32_t pack_index;
+    uint32_t reach; /* table of the pack */
 } ff_set_action;
 
 /* What may follow, cheapest first. */
@@ -56,6 +57,7 @@ enum { FF_SET_STOPS_MAX = 12, FF_SET_NO_STOP = 0xffff };
 
 struct ff_action_set {
     const ff_pack *pack;
+    const ff_pack_reach *reach; /* NULL when some action has no table */
     uint32_t count, stand;
     ff_set_action *actions;
     ff_set_next *next;
@@ -90,6 +92,13 @@ static inline float ff_set_blend(const ff_set_action *action, float t)
     float x = t / action->blend;
     return 1.0f - x * x * (3.0f - 2.0f * x);
 }
+
+/* Of the pack's records, for whoever prepares plans: can it be walked on level ground; is it a jump or a duck; its class; what
+ * it costs, J/kg with penalties (algorithms B.2). */
+bool ff_action_is_usable(const ff_pack_action *record);
+bool ff_action_is_platform(const ff_pack_action *record);
+ff_action_class ff_action_class_of(const ff_pack_action *record);
+float ff_action_cost(const ff_pack_action *record);
 
 /* Which actions of the pack to take: marks chosen[], at most cap; returns how many (plan_select.c). */
 uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *chosen, uint32_t *stand);

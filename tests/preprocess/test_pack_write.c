@@ -39,9 +39,10 @@ static void records_have_no_hidden_padding(void **state)
     assert_int_equal(sizeof(ff_pack_lanes), 64);
     assert_int_equal(sizeof(ff_pack_clip), 10 * 4 + 8 + 6 * 4);
     assert_int_equal(sizeof(ff_pack_plant), 13 * 4);
-    assert_int_equal(sizeof(ff_pack_action), 42 * 4);
+    assert_int_equal(sizeof(ff_pack_action), 43 * 4);
     assert_int_equal(sizeof(ff_pack_event), 16);
     assert_int_equal(sizeof(ff_pack_successor), 12);
+    assert_int_equal(sizeof(ff_pack_reach), 81 * 82 * 2);
     assert_int_equal(sizeof(ff_pack_example), 18 * 4);
     assert_int_equal(sizeof(ff_pack_foot), 20);
     assert_int_equal(sizeof(ff_pack_simplex), 20);
