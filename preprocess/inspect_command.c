@@ -90,6 +90,10 @@ static void print_coverage(const ff_pack *pack)
     ff_branching b = ff_coverage_branching(pack);
     printf("  %.0f actions may follow one (median; %u to %u); %u joints for want of better ones\n", b.median,
            b.least, b.most, b.forced);
+    uint32_t guided = 0;
+    for (uint32_t i = 0; i < pack->action_count; ++i)
+        guided += pack->actions[i].reach != FF_REACH_NONE;
+    printf("  planners take %u of them by default, guided by %u reach tables\n", guided, pack->reach_count);
     for (int k = 0; k < ff_coverage_kinds(); ++k)
         if (ff_coverage_count(pack, k) == 0) printf("  no %s\n", ff_coverage_words(k));
 }

@@ -21,7 +21,7 @@ enum {
     MIDDLE = FF_REACH_CELLS / 2,
     EDGE = (CELLS - FF_REACH_CELLS) / 2
 };
-enum { TABLE = FF_REACH_CELLS * FF_REACH_CELLS };
+enum { TABLE = FF_REACH_CELLS * FF_REACH_CELLS, FILL_ROUNDS = 12 };
 static const float BUCKET = 0.05f;                                  /* J/kg; no step costs so little */
 static const float COVER = FF_REACH_RADIUS + 0.71f * FF_REACH_CELL; /* m: whole cells count as reached */
 static const float NEVER = 1e6f;
@@ -166,15 +166,44 @@ static bool find_ways(ways *w)
     return good;
 }
 
+/* What a cell that no goal came to costs by the way of its steps, each to the cell that the middle of this one comes to: turned
+ * lattices do not cover each other. Returns whether any cell got a price. */
+static bool fill_holes(ways *w)
+{
+    bool any = false;
+    for (uint32_t a = 0; a < w->count; ++a)
+        for (uint32_t k = w->first[a]; k < w->first[a + 1]; ++k) {
+            const edge *e = &w->edges[k];
+            float *least = w->least + (size_t)e->before * PLANE;
+            for (int cell = 0; cell < PLANE; ++cell) {
+                if (w->done[(size_t)e->before * PLANE + (size_t)cell]) continue;
+                float f = FF_REACH_CELL * (float)(cell / CELLS - CELLS / 2) - e->move[0];
+                float l = FF_REACH_CELL * (float)(cell % CELLS - CELLS / 2) - e->move[1];
+                int64_t to = cell_of(a, e->cosine * f + e->sine * l, e->cosine * l - e->sine * f);
+                if (to < 0 || w->least[to] + e->cost >= least[cell]) continue;
+                least[cell] = w->least[to] + e->cost;
+                any = true;
+            }
+        }
+    return any;
+}
+
 /* ------------------------------------------------------------------------------------------------------ tables */
 
-/* The part that is kept, as the left foot sees it. */
+/* The part that is kept, as the left foot sees it. A place counts with the cheapest of its own cell and the four beside it: what
+ * comes round a corner of turned lattices may miss a cell at its edge. */
 static void crop(const float *plane, bool mirrored, float *table)
 {
     for (int i = 0; i < FF_REACH_CELLS; ++i)
         for (int k = 0; k < FF_REACH_CELLS; ++k) {
-            int column = mirrored ? FF_REACH_CELLS - 1 - k : k;
-            table[i * FF_REACH_CELLS + k] = plane[(i + EDGE) * CELLS + column + EDGE];
+            int column = (mirrored ? FF_REACH_CELLS - 1 - k : k) + EDGE;
+            const float *at = plane + (i + EDGE) * CELLS + column;
+            float least = at[0];
+            for (int side = 0; side < 4; ++side) {
+                float beside = at[(int[]){1, -1, CELLS, -CELLS}[side]];
+                least = beside < least ? beside : least;
+            }
+            table[i * FF_REACH_CELLS + k] = least;
         }
 }
 
@@ -321,7 +350,10 @@ ff_status ff_pack_add_reach(ff_pack_content *content, ff_error *error)
     if (good && w.ways.count > 0) {
         w.ways.edges = w.edges.data;
         w.ways.first = w.first;
-        good = find_ways(&w.ways) && add_tables(&w, content);
+        good = find_ways(&w.ways);
+        for (int i = 0; good && i < FILL_ROUNDS && fill_holes(&w.ways); ++i)
+            continue;
+        good = good && add_tables(&w, content);
     }
     end(&w);
     return good ? FF_OK : ff_fail(error, FF_ERR_NO_MEMORY, "no memory for reach tables");

@@ -225,6 +225,7 @@ static const bad_record bad_records[] = {
     {FF_SECTION_ACTIONS, 0, offsetof(ff_pack_action, first_collider), 1},
     {FF_SECTION_ACTIONS, 0, offsetof(ff_pack_action, collider_samples), 0x55555556u},
     {FF_SECTION_ACTIONS, 0, offsetof(ff_pack_action, support_plant), 1},
+    {FF_SECTION_ACTIONS, 0, offsetof(ff_pack_action, reach), 1},
     {FF_SECTION_COLLIDERS, 1, offsetof(ff_pack_collider, y), NAN_WORD},
     {FF_SECTION_EXAMPLES, 0, offsetof(ff_pack_example, name), 1u << 30},
     {FF_SECTION_EXAMPLES, 1, offsetof(ff_pack_example, stream), 0},

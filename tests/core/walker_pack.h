@@ -263,6 +263,7 @@ static inline void ff_walker_clip(ff_pack_content *content)
     ff_pack_action *action = ff_walker_push(&content->actions, 1, sizeof *action);
     *action = (ff_pack_action){
         .swing = 1, .t_end = 0.5f, .duration = 0.5f, .collider_samples = 1, .swing_plant = UINT32_MAX};
+    ff_walker_push(&content->reach, 1, sizeof(ff_pack_reach));
     ff_walker_push(&content->colliders, FF_COLLIDER_COUNT, sizeof(ff_pack_collider));
 }
 
