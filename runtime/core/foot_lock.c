@@ -228,14 +228,13 @@ static double soft_max(double x, double y, double round)
     return x + 0.5 * (over + sqrt(over * over + round * round));
 }
 
-/* Raise the ball over an arc above the floor, and the heel over the floor until it strikes. */
-static void keep_clear(const ff_body_frame *body, ff_gait_foot *state, int foot)
+void ff_foot_clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot, double ease)
 {
-    double arc = 4.0 * state->progress * (1.0 - state->progress);
+    double arc = 4.0 * state->progress * (1.0 - state->progress), round = 0.01 * arc * ease;
     double heel = body->ball_rest + heel_rise(body, foot, state->pitch) +
                   HEEL_CLEARANCE * arc * ff_smooth((STRIKE - state->progress) / 0.3);
-    state->now.height = soft_max(state->now.height, body->ball_rest + LEAST_LIFT * arc * arc, 0.01 * arc);
-    state->now.height = soft_max(state->now.height, heel, 0.01 * arc);
+    state->now.height = soft_max(state->now.height, body->ball_rest + LEAST_LIFT * arc * arc, round);
+    state->now.height = soft_max(state->now.height, heel, round);
 }
 
 /* Height is the clip's own but for the ends of the swing: an offset led over the whole swing would, by its slopes, take
@@ -304,7 +303,7 @@ static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_f
     state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
     set_off(state);
     pass_beside(scene, state, other, foot);
-    keep_clear(&scene->space->body, state, foot);
+    ff_foot_clear_floor(&scene->space->body, state, foot, 1.0);
 }
 
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
