@@ -317,7 +317,9 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     double time = ff_max(whole / scene->goal_tempo + scene->delay, 0.5 * whole / scene->goal_tempo);
     bool first = state->elapsed == 0.0;
     state->elapsed += scene->dt;
-    state->progress = ff_max(state->progress, state->elapsed / (state->elapsed + time));
+    /* What is left of the swing at the speed that fits the time left: elapsed / (elapsed + time) at a steady pace, and no jump
+     * when the pace changes. */
+    state->progress += (1.0 - state->progress) * scene->dt / ff_max(time + scene->dt, 1e-9);
 
     ff_foothold landing = clip_foot_later(scene, foot, start, time);
     ff_foothold wanted = stance_mean(scene, foot, landing, start, length, time);
