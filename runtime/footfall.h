@@ -132,6 +132,205 @@ ff_status ff_pack_sample(const ff_pack *pack, uint32_t stream, double time, uint
 /* From the root's frame into the world: *hips and *rotation of joint 0, as ff_crowd_agent_pose gives them. */
 void ff_root_place(const ff_root_frame *root, ff_vec3 *hips, ff_quat *rotation);
 
+/* ---------------------------------------------------------------------------------------------- behaviour
+ *
+ * What people do one after the other: a state machine that each agent may follow. A state says which goal to take, whether
+ * to walk there or to stand, how fast, and where to look; transitions say what leads from it to which others. Goals may
+ * hold so many people and no more. Signals are clocks that all can see; spawners put people in, exits take them out.
+ *
+ * All of it is arrays of plain records that refer to each other by index; a crowd copies them when it is created, checks them
+ * and saves them with its state. (A scene file says the same in words: runtime/scenes/README.md.) Everything that is
+ * drawn comes from a stream of each agent's own.
+ */
+
+#define FF_NAME_SIZE 32 /* bytes of a name with its final 0 */
+#define FF_VARIABLES 8  /* numbers that an agent can remember */
+#define FF_NONE UINT32_MAX
+
+typedef enum ff_region_shape { FF_REGION_POINT, FF_REGION_CIRCLE, FF_REGION_BOX } ff_region_shape;
+
+/* A place: a point, a disc, or a rectangle that may be turned. */
+typedef struct ff_region {
+    uint32_t shape, unused;
+    ff_vec2 centre; /* m */
+    ff_vec2
+        half; /* m. Circle: a is the radius. Box: half its length along heading, half its width to the left of it */
+    double heading; /* rad */
+} ff_region;
+
+/* A number: a; or drawn evenly between a and b; or normal about a with deviation b, within two of them and not below 0. */
+typedef enum ff_amount_kind { FF_AMOUNT_CONST, FF_AMOUNT_UNIFORM, FF_AMOUNT_NORMAL } ff_amount_kind;
+typedef struct ff_amount {
+    uint32_t kind, unused;
+    double a, b;
+} ff_amount;
+
+typedef struct ff_goal_def {
+    char name[FF_NAME_SIZE];
+    ff_region place;   /* each who takes the goal chooses a spot in it, away from the spots of others */
+    ff_vec2 look_at;   /* m, what one looks at from there */
+    double weight;     /* of FF_CHOOSE_WEIGHTED, > 0 */
+    uint32_t capacity; /* how many may have taken it at a time; 0: any number */
+    uint32_t unused;
+} ff_goal_def;
+
+/* Goals first_goal to first_goal + goal_count - 1. */
+typedef struct ff_goal_set_def {
+    char name[FF_NAME_SIZE];
+    uint32_t first_goal, goal_count;
+    uint32_t exit; /* 1: who arrives is taken out of the crowd */
+    uint32_t unused;
+} ff_goal_set_def;
+
+typedef struct ff_region_def {
+    char name[FF_NAME_SIZE];
+    ff_region place;
+} ff_region_def;
+
+/* Phases that follow each other round and round; at time 0 so many seconds have passed. */
+typedef struct ff_phase_def {
+    char name[FF_NAME_SIZE];
+    double seconds;
+} ff_phase_def;
+typedef struct ff_signal_def {
+    char name[FF_NAME_SIZE];
+    uint32_t first_phase, phase_count;
+    double passed; /* s */
+} ff_signal_def;
+
+/* What conditions can compare and actions can change (the last two). */
+typedef enum ff_property {
+    FF_PROPERTY_SPEED,           /* m/s, now */
+    FF_PROPERTY_RADIUS,          /* m */
+    FF_PROPERTY_GOAL_DISTANCE,   /* m, to its spot at the goal */
+    FF_PROPERTY_GOAL_NUMBER,     /* place of its goal in the set, from 0; -1: none */
+    FF_PROPERTY_STATE_TIME,      /* s, in this state */
+    FF_PROPERTY_AGE,             /* s, in the crowd */
+    FF_PROPERTY_PREFERRED_SPEED, /* m/s, without the state's factor */
+    FF_PROPERTY_VARIABLE,        /* and FF_VARIABLES - 1 more */
+} ff_property;
+typedef struct ff_variable_def {
+    char name[FF_NAME_SIZE];
+    double start;
+} ff_variable_def;
+
+typedef enum ff_act_kind { FF_ACT_SET, FF_ACT_ADD, FF_ACT_SCALE } ff_act_kind;
+typedef struct ff_act_def {
+    uint32_t kind, property;
+    ff_amount amount;
+} ff_act_def;
+
+typedef enum ff_condition_kind {
+    FF_IF_ALWAYS,
+    FF_IF_ARRIVED, /* within amount.a m of its spot at the goal, or settled as near as others let it */
+    FF_IF_TIMER,   /* amount s have passed in this state; drawn when it is entered */
+    FF_IF_CHANCE,  /* amount.a times a second on average */
+    FF_IF_INSIDE,  /* region index */
+    FF_IF_OUTSIDE,
+    FF_IF_SIGNAL,  /* signal index shows its phase `value` (counted from 0) */
+    FF_IF_BLOCKED, /* has wanted to go and could not for amount.a s */
+    FF_IF_LESS,    /* property index against amount.a */
+    FF_IF_MORE,
+    FF_IF_ALL, /* conditions first to first + count - 1, all of which stand behind this one */
+    FF_IF_ANY,
+    FF_IF_NOT, /* one */
+} ff_condition_kind;
+typedef struct ff_condition_def {
+    uint32_t kind, index, value;
+    uint32_t first, count, unused;
+    ff_amount amount;
+} ff_condition_def;
+
+/* If the condition holds: one of the targets, drawn by weight. */
+typedef struct ff_transition_def {
+    uint32_t condition, first_target, target_count, unused;
+} ff_transition_def;
+typedef struct ff_target_def {
+    uint32_t state, unused;
+    double weight;
+} ff_target_def;
+
+/* Which goal a state takes when it is entered. A goal that is full is never taken; where none is left, the transition into
+ * the state does not happen. */
+typedef enum ff_goal_choice {
+    FF_CHOOSE_SHARED,   /* the one it has: states share it */
+    FF_CHOOSE_EXPLICIT, /* goal `from`; the next ones are among the goals of set `from` */
+    FF_CHOOSE_RANDOM,
+    FF_CHOOSE_WEIGHTED,
+    FF_CHOOSE_NEAREST,
+    FF_CHOOSE_FARTHEST,
+    FF_CHOOSE_NEXT,     /* the one behind the last, round and round */
+    FF_CHOOSE_MIRROR,   /* no goal of a set, but the place opposite through the origin */
+    FF_CHOOSE_OFFSET,   /* where it is, plus offset */
+    FF_CHOOSE_IDENTITY, /* where it is */
+} ff_goal_choice;
+
+typedef enum ff_state_motion {
+    FF_MOTION_GOAL,  /* walk to the goal */
+    FF_MOTION_STAND, /* come to a stand and stay */
+} ff_state_motion;
+
+/* Where somebody looks while standing: turned to in place, with steps. */
+typedef enum ff_face {
+    FF_FACE_FREE,    /* as it happens */
+    FF_FACE_POINT,   /* a point, m */
+    FF_FACE_HEADING, /* a direction */
+    FF_FACE_GOAL,    /* of states: what is to be looked at from its goal */
+} ff_face;
+
+/* Transitions are tried in their order; acts are done in theirs. */
+typedef struct ff_state_def {
+    char name[FF_NAME_SIZE];
+    uint32_t choice, from, not_last; /* not_last: 1, another one than it has */
+    uint32_t motion, face;
+    uint32_t first_enter, enter_count, first_exit, exit_count; /* acts */
+    uint32_t first_transition, transition_count, unused;
+    ff_vec2 offset;  /* m */
+    ff_vec2 face_at; /* m, or a direction */
+    double speed;    /* factor on the preferred speed */
+} ff_state_def;
+
+typedef struct ff_machine_def {
+    char name[FF_NAME_SIZE];
+    uint32_t start; /* state */
+    uint32_t unused;
+} ff_machine_def;
+
+/* Puts people into place, where there is room for them. */
+typedef struct ff_spawner_def {
+    char name[FF_NAME_SIZE];
+    ff_region place;
+    uint32_t machine;
+    uint32_t regular; /* 1: in equal intervals; 0: at random, as often on average */
+    uint32_t total;   /* how many in all; 0: without end */
+    uint32_t most;    /* how many of its own may live at a time; 0: any number */
+    double rate;      /* per s */
+    double heading;   /* rad */
+    ff_amount preferred_speed, radius;
+} ff_spawner_def;
+
+typedef struct ff_behaviour_def {
+    const ff_machine_def *machines;
+    const ff_state_def *states;
+    const ff_transition_def *transitions;
+    const ff_target_def *targets;
+    const ff_condition_def *conditions;
+    const ff_act_def *acts;
+    const ff_goal_set_def *sets;
+    const ff_goal_def *goals;
+    const ff_region_def *regions;
+    const ff_signal_def *signals;
+    const ff_phase_def *phases;
+    const ff_variable_def *variables;
+    const ff_spawner_def *spawners;
+    uint32_t machine_count, state_count, transition_count, target_count, condition_count, act_count,
+        set_count, goal_count, region_count, signal_count, phase_count, variable_count, spawner_count, unused;
+} ff_behaviour_def;
+
+/* Whether a crowd would take it: every index, number and name. Of an error, section names the array and byte_offset the
+ * place in it. */
+ff_status ff_behaviour_check(const ff_behaviour_def *def, ff_error *error);
+
 /* ------------------------------------------------------------------------------------------------- crowds */
 
 typedef struct ff_crowd ff_crowd;
@@ -209,7 +408,8 @@ typedef struct ff_crowd_def {
     ff_synthesis synthesis;   /* likewise */
     ff_mcn_def mcn;
     ff_baseline_def baseline;
-    uint32_t cookie; /* set by ff_crowd_def_default(); leave it alone */
+    const ff_behaviour_def *behaviour; /* copied at creation; NULL: none */
+    uint32_t cookie;                   /* set by ff_crowd_def_default(); leave it alone */
 } ff_crowd_def;
 
 typedef struct ff_agent_def {
@@ -221,6 +421,8 @@ typedef struct ff_agent_def {
     double radius;          /* m, default 0.3 */
     ff_navigation navigation;
     ff_synthesis synthesis;
+    uint32_t
+        machine; /* of the crowd's behaviour, which then chooses goals; default FF_NONE: the caller does */
     uint32_t cookie; /* set by ff_agent_def_default() */
 } ff_agent_def;
 
@@ -234,12 +436,22 @@ void ff_crowd_destroy(ff_crowd *crowd); /* NULL is fine */
 ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent *out, ff_error *error);
 ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error);
 ff_status ff_crowd_set_goal(ff_crowd *crowd, ff_agent agent, ff_vec2 goal, ff_error *error);
+ff_status ff_crowd_set_preferred_speed(ff_crowd *crowd, ff_agent agent, double speed, ff_error *error);
+/* Where to look while it stands: FF_FACE_FREE, _POINT or _HEADING; at: the point, or a direction of any length. */
+ff_status ff_crowd_set_facing(ff_crowd *crowd, ff_agent agent, ff_face face, ff_vec2 at, ff_error *error);
+
+/* Make a signal show a phase (counted from 0) until it is told otherwise; FF_NONE: go by the clock again. */
+ff_status ff_crowd_set_signal(ff_crowd *crowd, uint32_t signal, uint32_t phase, ff_error *error);
 
 /* A static wall from p to q, solid from both sides. Walls are fixed once the first step was taken. */
 ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *error);
 
 /* Advance by one fixed step. Does not allocate. */
 void ff_crowd_step(ff_crowd *crowd);
+
+/* FF_OK, or what a step could not do: an agent's machine that went through more than eight states at one moment. The crowd
+ * goes on; the agent stays in the state it had come to. */
+ff_status ff_crowd_fault(const ff_crowd *crowd, ff_error *error);
 
 uint32_t ff_crowd_agent_count(const ff_crowd *crowd);
 uint64_t ff_crowd_step_count(const ff_crowd *crowd);
@@ -274,7 +486,7 @@ typedef struct ff_agent_state {
     uint8_t reached;    /* 1: stands at its goal */
     uint8_t planted[2]; /* left, right: the foot is locked to the ground */
     uint8_t way;        /* FF_WAY_*: what it moves by now */
-    uint8_t reserved[4];
+    uint32_t number;    /* how many were added before: unlike slots, numbers are never used again */
 } ff_agent_state;
 
 /* State of a live agent. Fails with FF_ERR_ARGUMENT for a stale handle. */
@@ -288,6 +500,24 @@ typedef struct ff_synthesis_counts {
 } ff_synthesis_counts;
 ff_status ff_crowd_synthesis_counts(const ff_crowd *crowd, ff_agent agent, ff_synthesis_counts *out,
                                     ff_error *error);
+
+/* What an agent's machine is at: indices into the crowd's behaviour, or FF_NONE. */
+typedef struct ff_agent_behaviour {
+    uint32_t machine, state, goal;
+    uint32_t spawner; /* that put it in */
+    double seconds;   /* in this state */
+} ff_agent_behaviour;
+ff_status ff_crowd_agent_behaviour(const ff_crowd *crowd, ff_agent agent, ff_agent_behaviour *out,
+                                   ff_error *error);
+uint32_t ff_crowd_goal_taken(const ff_crowd *crowd, uint32_t goal); /* by how many now */
+uint32_t ff_crowd_signal_phase(const ff_crowd *crowd,
+                               uint32_t signal); /* that it shows; FF_NONE: no such signal */
+
+/* How many were ever added (by the caller or by spawners), how many of those by spawners, and how many left by an exit. */
+typedef struct ff_crowd_counts {
+    uint64_t added, spawned, left;
+} ff_crowd_counts;
+ff_crowd_counts ff_crowd_count(const ff_crowd *crowd);
 
 /* Handles of all live agents in slot order. Writes at most capacity, returns how many there are. */
 uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity);
@@ -313,6 +543,7 @@ ff_status ff_crowd_matrices(ff_crowd *crowd, ff_vec2 origin, ff_matrix *out, uin
 /* Seconds spent per phase since creation, summed over steps. Wall clock: for reports only, never part of the
  * state. */
 typedef struct ff_crowd_timings {
+    double behaviour;  /* state machines and spawners */
     double snapshot;   /* what everybody shows the others, and who is where */
     double neighbours; /* who is near whom */
     double navigation; /* which velocity to ask for */

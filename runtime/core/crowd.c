@@ -1,5 +1,5 @@
 /* Crowds: creation, agents, walls and questions. The step is in crowd_step.c. */
-#include "runtime/core/crowd_state.h"
+#include "runtime/core/crowd_behave.h"
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/random.h"
@@ -44,8 +44,11 @@ ff_crowd_def ff_crowd_def_default(void)
 
 ff_agent_def ff_agent_def_default(void)
 {
-    return (ff_agent_def){
-        .goal_tolerance = 0.5, .preferred_speed = 1.3, .radius = 0.3, .cookie = AGENT_COOKIE};
+    return (ff_agent_def){.goal_tolerance = 0.5,
+                          .machine = FF_NONE,
+                          .preferred_speed = 1.3,
+                          .radius = 0.3,
+                          .cookie = AGENT_COOKIE};
 }
 
 static ff_status check_between(double value, double low, double high, const char *what, ff_error *error)
@@ -165,11 +168,14 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     crowd->pack = pack;
     crowd->def = *def;
     if (def->navigation == FF_NAVIGATION_CROWD) crowd->def.navigation = FF_NAVIGATION_MCN;
-    if (def->synthesis == FF_SYNTHESIS_CROWD)
-        crowd->def.synthesis = ff_crowd_def_default().synthesis;
+    if (def->synthesis == FF_SYNTHESIS_CROWD) crowd->def.synthesis = ff_crowd_def_default().synthesis;
     make_clip_hull(crowd);
     status = make_hull(crowd, error);
     if (status == FF_OK) status = ff_blend_space_create(pack, &crowd->space, error);
+    if (status == FF_OK && def->behaviour) {
+        status = ff_behaviour_create(def->behaviour, &crowd->behaviour, error);
+        crowd->def.behaviour = crowd->behaviour ? &crowd->behaviour->def : NULL;
+    }
     if (status == FF_OK && !def->tasks) status = ff_tasks_create(def->threads, &crowd->own_tasks, error);
     if (status == FF_OK) status = ff_arena_create(&crowd->arena, memory_needed(&crowd->def), error);
     if (status == FF_OK && !take_memory(crowd))
@@ -188,6 +194,7 @@ void ff_crowd_destroy(ff_crowd *crowd)
     ff_arena_destroy(&crowd->arena);
     ff_tasks_destroy(crowd->own_tasks);
     ff_blend_space_destroy(crowd->space);
+    ff_behaviour_destroy(crowd->behaviour);
     free(crowd);
 }
 
@@ -206,7 +213,14 @@ ff_status ff_crowd_check_place(ff_vec2 p, const char *what, ff_error *error)
                    what, p.a, p.b, PLANE_MAX);
 }
 
-static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
+static ff_status check_machine(const ff_crowd *crowd, uint32_t machine, ff_error *error)
+{
+    uint32_t count = crowd->behaviour ? crowd->behaviour->def.machine_count : 0;
+    if (machine == FF_NONE || machine < count) return FF_OK;
+    return ff_fail(error, FF_ERR_RANGE, "machine %u of a crowd whose behaviour has %u", machine, count);
+}
+
+static ff_status check_agent_def(const ff_crowd *crowd, const ff_agent_def *def, ff_error *error)
 {
     if (!def || def->cookie != AGENT_COOKIE)
         return ff_fail(error, FF_ERR_ARGUMENT,
@@ -220,6 +234,7 @@ static ff_status check_agent_def(const ff_agent_def *def, ff_error *error)
     if (status == FF_OK) status = check_between(def->radius, 0.05, 1.5, "radius", error);
     if (status == FF_OK) status = check_navigation(def->navigation, error);
     if (status == FF_OK) status = check_synthesis(def->synthesis, error);
+    if (status == FF_OK) status = check_machine(crowd, def->machine, error);
     return status;
 }
 
@@ -233,10 +248,30 @@ static uint32_t take_slot(ff_crowd *crowd)
     return slot;
 }
 
-ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent *out, ff_error *error)
+static void free_slot(ff_crowd *crowd, uint32_t slot)
 {
-    if (!crowd || !out) return ff_fail(error, FF_ERR_ARGUMENT, "no crowd to add an agent to");
-    ff_status status = check_agent_def(def, error);
+    crowd->alive[slot] = 0;
+    --crowd->agent_count;
+    crowd->next_free[slot] = crowd->free_first;
+    crowd->free_first = slot + 1;
+}
+
+/* Standing, with a style of its own. */
+static void place_body(ff_crowd *crowd, uint32_t slot, ff_vec2 position, double heading)
+{
+    ff_random random = {crowd->def.seed, slot, (uint64_t)crowd->generation[slot] << 8};
+    crowd->minds[slot] = ff_mind_new(heading);
+    crowd->choices[slot] = (ff_choice){0.0, 0, 0};
+    crowd->bodies[slot] =
+        (ff_body){.position = position, .heading = heading, .phase = ff_random_unit(&random)};
+    crowd->velocity[slot] = ff_v2(0.0, 0.0);
+    ff_gait_init(crowd->space, &crowd->gaits[slot], position, heading, ff_random_next(&random));
+}
+
+ff_status ff_crowd_put(ff_crowd *crowd, const ff_agent_def *def, uint32_t spawner, ff_agent *out,
+                       ff_error *error)
+{
+    ff_status status = check_agent_def(crowd, def, error);
     if (status != FF_OK) return status;
     if (crowd->agent_count == crowd->def.max_agents)
         return ff_fail(error, FF_ERR_RANGE, "the crowd is full: %u agents; raise max_agents",
@@ -246,8 +281,7 @@ ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent 
     crowd->alive[slot] = 1;
     ++crowd->agent_count;
 
-    ff_random random = {crowd->def.seed, slot, (uint64_t)generation << 8};
-    double heading = ff_wrap(def->heading);
+    crowd->number[slot] = (uint32_t)crowd->added;
     ff_navigation navigation = def->navigation ? def->navigation : crowd->def.navigation;
     ff_synthesis synthesis = def->synthesis ? def->synthesis : crowd->def.synthesis;
     crowd->traits[slot] = (ff_traits){.goal = def->goal,
@@ -256,14 +290,24 @@ ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent 
                                       .radius = def->radius,
                                       .navigation = navigation,
                                       .synthesis = synthesis};
-    crowd->minds[slot] = ff_mind_new(heading);
-    crowd->choices[slot] = (ff_choice){0.0, 0, 0};
-    crowd->bodies[slot] =
-        (ff_body){.position = def->position, .heading = heading, .phase = ff_random_unit(&random)};
-    crowd->velocity[slot] = ff_v2(0.0, 0.0);
-    ff_gait_init(crowd->space, &crowd->gaits[slot], def->position, heading, ff_random_next(&random));
+    place_body(crowd, slot, def->position, ff_wrap(def->heading));
+    if (crowd->behaviour && !ff_crowd_behave_start(crowd, slot, def->machine, spawner)) {
+        free_slot(crowd, slot);
+        return ff_fail(error, FF_ERR_RANGE, "no goal of the first state of machine %s is free",
+                       crowd->behaviour->def.machines[def->machine].name);
+    }
+    ff_vec2 way = ff_sub2(crowd->traits[slot].goal, def->position);
+    if (spawner != FF_NONE && ff_dot2(way, way) > 0.0)
+        place_body(crowd, slot, def->position, ff_atan2(way.b, way.a));
+    ++crowd->added;
     *out = (ff_agent){slot, generation};
     return FF_OK;
+}
+
+ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent *out, ff_error *error)
+{
+    if (!crowd || !out) return ff_fail(error, FF_ERR_ARGUMENT, "no crowd to add an agent to");
+    return ff_crowd_put(crowd, def, FF_NONE, out, error);
 }
 
 ff_status ff_crowd_check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *error)
@@ -275,14 +319,17 @@ ff_status ff_crowd_check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *
                    agent.generation);
 }
 
+void ff_crowd_take_out(ff_crowd *crowd, uint32_t slot)
+{
+    if (crowd->behaviour) ff_crowd_behave_end(crowd, slot);
+    free_slot(crowd, slot);
+}
+
 ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error)
 {
     ff_status status = ff_crowd_check_agent(crowd, agent, error);
     if (status != FF_OK) return status;
-    crowd->alive[agent.slot] = 0;
-    --crowd->agent_count;
-    crowd->next_free[agent.slot] = crowd->free_first;
-    crowd->free_first = agent.slot + 1;
+    ff_crowd_take_out(crowd, agent.slot);
     return FF_OK;
 }
 
@@ -293,6 +340,29 @@ ff_status ff_crowd_set_goal(ff_crowd *crowd, ff_agent agent, ff_vec2 goal, ff_er
     if (status != FF_OK) return status;
     crowd->traits[agent.slot].goal = goal;
     ff_mind_forget_goal(&crowd->minds[agent.slot]);
+    return FF_OK;
+}
+
+ff_status ff_crowd_set_preferred_speed(ff_crowd *crowd, ff_agent agent, double speed, ff_error *error)
+{
+    ff_status status = ff_crowd_check_agent(crowd, agent, error);
+    if (status == FF_OK) status = check_between(speed, 0.1, 4.0, "preferred_speed", error);
+    if (status != FF_OK) return status;
+    crowd->traits[agent.slot].preferred_speed = speed;
+    if (crowd->behaviour) ff_crowd_behave_speed(crowd, agent.slot, speed);
+    return FF_OK;
+}
+
+ff_status ff_crowd_set_facing(ff_crowd *crowd, ff_agent agent, ff_face face, ff_vec2 at, ff_error *error)
+{
+    ff_status status = ff_crowd_check_agent(crowd, agent, error);
+    if (status == FF_OK) status = ff_crowd_check_place(at, "what is looked at", error);
+    if (status == FF_OK && !(face >= FF_FACE_FREE && face <= FF_FACE_HEADING))
+        status = ff_fail(error, FF_ERR_ARGUMENT, "face is %d; expected FF_FACE_FREE, _POINT or _HEADING",
+                         (int)face);
+    if (status != FF_OK) return status;
+    crowd->traits[agent.slot].face = face;
+    crowd->traits[agent.slot].face_at = at;
     return FF_OK;
 }
 
@@ -318,6 +388,11 @@ ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *err
 uint32_t ff_crowd_agent_count(const ff_crowd *crowd)
 {
     return crowd->agent_count;
+}
+
+ff_crowd_counts ff_crowd_count(const ff_crowd *crowd)
+{
+    return (ff_crowd_counts){crowd->added, crowd->spawned, crowd->left};
 }
 
 uint64_t ff_crowd_step_count(const ff_crowd *crowd)
@@ -357,7 +432,8 @@ ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_s
                             .radius = traits->radius,
                             .reached = mind->standing && near && still,
                             .planted = {(uint8_t)ff_gait_planted(gait, 0), (uint8_t)ff_gait_planted(gait, 1)},
-                            .way = (uint8_t)gait->blend.way};
+                            .way = (uint8_t)gait->blend.way,
+                            .number = crowd->number[agent.slot]};
     return FF_OK;
 }
 

@@ -12,17 +12,26 @@
         name, kind, offsetof(ff_crowd, member), sizeof *((ff_crowd *)0)->member, NULL, check                 \
     }
 
+static bool has_behaviour(const ff_crowd_def *def)
+{
+    return def->behaviour != NULL;
+}
+
 /* Of an array that not every crowd needs, write the row out, with a function for wanted. The order is that of the hash and of saved crowds. */
 static const ff_crowd_array arrays[] = {
     ROW("SGEN", FF_ARRAY_SLOT, generation, NULL),
     ROW("SLIV", FF_ARRAY_SLOT, alive, NULL),
     ROW("SFRE", FF_ARRAY_SLOT, next_free, NULL),
+    ROW("NUMB", FF_ARRAY_AGENT, number, NULL),
     ROW("TRAI", FF_ARRAY_AGENT, traits, ff_crowd_check_traits),
     ROW("MIND", FF_ARRAY_AGENT, minds, ff_crowd_check_mind),
     ROW("BODY", FF_ARRAY_AGENT, bodies, ff_crowd_check_body),
     ROW("VELO", FF_ARRAY_AGENT, velocity, ff_crowd_check_velocity),
     ROW("GAIT", FF_ARRAY_AGENT, gaits, ff_crowd_check_gait),
     ROW("CHOI", FF_ARRAY_AGENT, choices, ff_crowd_check_choice),
+    {"COND", FF_ARRAY_AGENT, offsetof(ff_crowd, conducts), sizeof(ff_conduct), has_behaviour,
+     ff_crowd_check_conduct},
+    {"fire", FF_ARRAY_STEP, offsetof(ff_crowd, firing), sizeof(uint32_t), has_behaviour, NULL},
     ROW("seen", FF_ARRAY_STEP, unsorted, NULL),
     ROW("near", FF_ARRAY_STEP, neighbours, NULL),
     ROW("nnbr", FF_ARRAY_STEP, neighbour_count, NULL),

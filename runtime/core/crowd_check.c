@@ -52,6 +52,8 @@ const char *ff_crowd_check_traits(const ff_crowd *crowd, const void *element, si
     if (!MEMBER_FITS(ff_traits, radius, 1e-3, 10.0)) return "a radius is out of range";
     if (traits->navigation <= FF_NAVIGATION_CROWD || traits->navigation > FF_NAVIGATION_SF)
         REFUSE_MEMBER(ff_traits, navigation, "a method of navigation is none");
+    if (!MEMBER_FITS(ff_traits, face_at, -PLACE_MAX, PLACE_MAX)) return "what is looked at is no place";
+    if (traits->face > FF_FACE_HEADING) REFUSE_MEMBER(ff_traits, face, "somebody looks in no known way");
     if (traits->synthesis <= FF_SYNTHESIS_CROWD || traits->synthesis > FF_SYNTHESIS_HYBRID)
         REFUSE_MEMBER(ff_traits, synthesis, "a method of synthesis is none");
     return NULL;
@@ -101,6 +103,28 @@ const char *ff_crowd_check_velocity(const ff_crowd *crowd, const void *element, 
     (void)crowd;
     bool fits = ff_crowd_doubles_fit(element, 0, sizeof(ff_vec2), -SPEED_MAX, SPEED_MAX, byte);
     return fits ? NULL : "a velocity is out of range";
+}
+
+const char *ff_crowd_check_conduct(const ff_crowd *crowd, const void *element, size_t *byte)
+{
+    const ff_conduct *conduct = element;
+    const ff_behaviour_def *def = &crowd->behaviour->def;
+    if (!MEMBER_FITS(ff_conduct, place, -PLACE_MAX, PLACE_MAX)) return "a spot at a goal is no place";
+    if (!MEMBER_FITS(ff_conduct, speed, 1e-3, 1e2)) return "a preferred speed is out of range";
+    if (!MEMBER_FITS(ff_conduct, tolerance, 1e-3, 1e4)) return "a goal's tolerance is out of range";
+    if (!MEMBER_FITS(ff_conduct, blocked, 0.0, NUMBER_MAX)) return "a time is negative or no number";
+    if (!MEMBER_FITS(ff_conduct, variable, -NUMBER_MAX, NUMBER_MAX)) return "a variable is no number";
+    if (conduct->born > crowd->steps || conduct->entered > crowd->steps)
+        REFUSE_MEMBER(ff_conduct, born, "somebody came, or entered a state, in the future");
+    if (conduct->state != FF_NONE && conduct->state >= def->state_count)
+        REFUSE_MEMBER(ff_conduct, state, "a state is none");
+    if (conduct->goal != FF_NONE && conduct->goal >= def->goal_count)
+        REFUSE_MEMBER(ff_conduct, goal, "a goal is none");
+    if (conduct->set != FF_NONE && conduct->set >= def->set_count)
+        REFUSE_MEMBER(ff_conduct, set, "a set of goals is none");
+    if (conduct->spawner != FF_NONE && conduct->spawner >= def->spawner_count)
+        REFUSE_MEMBER(ff_conduct, spawner, "a spawner is none");
+    return NULL;
 }
 
 /* ------------------------------------------------------------------------------------------------- gait */

@@ -2,11 +2,11 @@
 
 #include <string.h>
 
-uint32_t ff_crowd_array_tag(const ff_crowd_array *array)
+static ff_section_kind optional(const char *name, size_t size)
 {
     uint32_t tag;
-    memcpy(&tag, array->name, sizeof tag);
-    return tag;
+    memcpy(&tag, name, sizeof tag);
+    return (ff_section_kind){tag, (uint32_t)size, 0, 0};
 }
 
 uint32_t ff_crowd_section_kinds(ff_section_kind kinds[FF_SECTIONS_MAX])
@@ -15,10 +15,14 @@ uint32_t ff_crowd_section_kinds(ff_section_kind kinds[FF_SECTIONS_MAX])
     kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_HEAD, sizeof(ff_saved_head), 1, 1};
     kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_DEF, sizeof(ff_saved_def), 1, 1};
     kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_WALL, sizeof(ff_saved_wall), 0, 1};
+    kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_SPAWN, sizeof(ff_spawning), 0, 0};
+    kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_SHOWN, sizeof(uint32_t), 0, 0};
+    for (uint32_t i = 0; i < FF_BEHAVIOUR_ARRAYS; ++i)
+        kinds[count++] = optional(ff_behaviour_arrays[i].name, ff_behaviour_arrays[i].size);
     for (uint32_t i = 0; i < ff_crowd_array_count(); ++i) {
         const ff_crowd_array *array = ff_crowd_array_at(i);
         if (array->kind == FF_ARRAY_STEP) continue;
-        kinds[count++] = (ff_section_kind){ff_crowd_array_tag(array), (uint32_t)array->size, 0, 0};
+        kinds[count++] = optional(array->name, array->size);
     }
     return count;
 }
@@ -39,7 +43,7 @@ ff_section_format ff_crowd_file_format(const ff_section_kind *kinds, uint32_t co
 /* ------------------------------------------------------------------------------------------- definition */
 
 /* A member more or less: save and load it here, then put the new size. */
-_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 128, "is all of a definition saved?");
+_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 136, "is all of a definition saved?");
 
 enum { MCN_PARTS = 11 };
 
@@ -61,6 +65,7 @@ ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
                           .synthesis = def->synthesis,
                           .facing = def->mcn.facing,
                           .model_velocity = def->baseline.model_velocity,
+                          .behaviour = def->behaviour != NULL,
                           .keep_right = def->keep_right,
                           .padding = def->mcn.padding,
                           .prediction = def->mcn.prediction,
@@ -77,7 +82,8 @@ ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
 bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
 {
     if (saved->navigation > FF_NAVIGATION_SF || saved->synthesis > FF_SYNTHESIS_HYBRID ||
-        saved->facing > FF_FACING_COMMAND || saved->mcn_parts >> MCN_PARTS != 0 || saved->model_velocity > 1)
+        saved->facing > FF_FACING_COMMAND || saved->mcn_parts >> MCN_PARTS != 0 ||
+        saved->model_velocity > 1 || saved->behaviour > 1)
         return false;
     *out = ff_crowd_def_default();
     out->max_agents = saved->max_agents;

@@ -11,15 +11,30 @@
 #define FF_CROWD_VERSION 1u
 
 enum {
-    FF_SECTION_CROWD_HEAD = FF_TAG('H', 'E', 'A', 'D'), /* ff_saved_head: one */
-    FF_SECTION_CROWD_DEF = FF_TAG('C', 'D', 'E', 'F'),  /* ff_saved_def: one */
-    FF_SECTION_CROWD_WALL = FF_TAG('W', 'A', 'L', 'L'), /* ff_saved_wall */
+    FF_SECTION_CROWD_HEAD = FF_TAG('H', 'E', 'A', 'D'),  /* ff_saved_head: one */
+    FF_SECTION_CROWD_DEF = FF_TAG('C', 'D', 'E', 'F'),   /* ff_saved_def: one */
+    FF_SECTION_CROWD_WALL = FF_TAG('W', 'A', 'L', 'L'),  /* ff_saved_wall */
+    FF_SECTION_CROWD_SPAWN = FF_TAG('S', 'P', 'W', 'N'), /* ff_spawning: one for each spawner */
+    FF_SECTION_CROWD_SHOWN = FF_TAG('S', 'H', 'O', 'W'), /* uint32_t: one for each signal */
+};
+
+/* Where they are in the list of sections. */
+enum {
+    FF_SAVED_HEAD,
+    FF_SAVED_DEF,
+    FF_SAVED_WALLS,
+    FF_SAVED_SPAWNING,
+    FF_SAVED_SHOWN,
+    FF_SAVED_BEHAVIOUR,
+    FF_SAVED_ARRAYS = FF_SAVED_BEHAVIOUR + FF_BEHAVIOUR_ARRAYS
 };
 
 typedef struct ff_saved_head {
     uint64_t pack_checksum, pack_size; /* of the pack it walks on */
     uint64_t steps;
+    uint64_t added, spawned, left;
     uint32_t agent_count, slot_count, free_first, unused;
+    ff_fault fault;
 } ff_saved_head;
 
 typedef struct ff_saved_def {
@@ -29,7 +44,8 @@ typedef struct ff_saved_def {
     uint32_t navigation, facing;
     uint32_t mcn_parts; /* bit n: the n-th switch of ff_mcn_def */
     uint32_t model_velocity;
-    uint32_t synthesis, unused;
+    uint32_t synthesis;
+    uint32_t behaviour;         /* 1: there is one, in sections of its own */
     double keep_right;          /* rad */
     double padding, prediction; /* m, s */
     double baseline_keep_right, baseline_padding;
@@ -39,9 +55,9 @@ typedef struct ff_saved_wall {
     ff_vec2 from, to; /* m */
 } ff_saved_wall;
 
-/* The kinds of sections: the three above and the arrays of state. Returns their number. */
+/* The kinds of sections: the fixed ones above in their order, the arrays of the behaviour's definition, the arrays of
+ * state. Returns their number. */
 uint32_t ff_crowd_section_kinds(ff_section_kind kinds[FF_SECTIONS_MAX]);
-uint32_t ff_crowd_array_tag(const ff_crowd_array *array);
 ff_section_format ff_crowd_file_format(const ff_section_kind *kinds, uint32_t count);
 
 ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def);

@@ -1,6 +1,7 @@
 /* Going on from a crowd that was saved. */
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
+#include "runtime/core/crowd_behave.h"
 #include "runtime/core/crowd_format.h"
 
 #include <stdlib.h>
@@ -13,10 +14,10 @@ typedef struct loading {
     ff_section_kind kinds[FF_SECTIONS_MAX];
     ff_section_view views[FF_SECTIONS_MAX];
     ff_saved_head head;
+    ff_behaviour_def behaviour;
+    void *block; /* of its arrays */
     ff_error *error;
 } loading;
-
-enum { HEAD, DEF, WALL, FIRST_ARRAY };
 
 static uint64_t place(const loading *l, const void *at)
 {
@@ -32,24 +33,47 @@ static ff_status read_sections(loading *l, size_t size)
 
 static ff_status read_head(loading *l)
 {
-    memcpy(&l->head, l->views[HEAD].data, sizeof l->head);
+    memcpy(&l->head, l->views[FF_SAVED_HEAD].data, sizeof l->head);
     ff_pack_header pack;
     memcpy(&pack, l->pack->data, sizeof pack);
     if (l->head.pack_checksum != pack.checksum || l->head.pack_size != l->pack->size)
-        return ff_fail_section(l->error, FF_ERR_ARGUMENT, "HEAD", place(l, l->views[HEAD].data),
+        return ff_fail_section(l->error, FF_ERR_ARGUMENT, "HEAD", place(l, l->views[FF_SAVED_HEAD].data),
                                "the crowd was saved with another motion pack (checksum %016llx, this one has "
                                "%016llx); load it with that one",
                                (unsigned long long)l->head.pack_checksum, (unsigned long long)pack.checksum);
     return FF_OK;
 }
 
+/* The arrays of the definition, side by side in a block; ff_crowd_create checks them. */
+static ff_status read_behaviour(loading *l)
+{
+    size_t bytes = 0;
+    const ff_section_view *views = &l->views[FF_SAVED_BEHAVIOUR];
+    for (uint32_t i = 0; i < FF_BEHAVIOUR_ARRAYS; ++i)
+        bytes += views[i].count * ff_behaviour_arrays[i].size;
+    unsigned char *at = l->block = ff_calloc(bytes, 1);
+    if (!at) return ff_fail(l->error, FF_ERR_NO_MEMORY, "a behaviour of %zu bytes", bytes);
+    for (uint32_t i = 0; i < FF_BEHAVIOUR_ARRAYS; ++i) {
+        size_t size = views[i].count * ff_behaviour_arrays[i].size;
+        if (size > 0) memcpy(at, views[i].data, size);
+        ff_behaviour_array_set(&l->behaviour, &ff_behaviour_arrays[i], at, (uint32_t)views[i].count);
+        at += size;
+    }
+    return FF_OK;
+}
+
 static ff_status read_def(loading *l, const ff_crowd_def *run, ff_crowd_def *def)
 {
     ff_saved_def saved;
-    memcpy(&saved, l->views[DEF].data, sizeof saved);
+    memcpy(&saved, l->views[FF_SAVED_DEF].data, sizeof saved);
     if (!ff_crowd_def_unpack(&saved, def))
-        return ff_fail_section(l->error, FF_ERR_PARSE, "CDEF", place(l, l->views[DEF].data),
+        return ff_fail_section(l->error, FF_ERR_PARSE, "CDEF", place(l, l->views[FF_SAVED_DEF].data),
                                "a switch or a choice of the crowd's definition is none that is known");
+    if (saved.behaviour) {
+        ff_status status = read_behaviour(l);
+        if (status != FF_OK) return status;
+        def->behaviour = &l->behaviour;
+    }
     if (run) {
         def->threads = run->threads;
         def->tasks = run->tasks;
@@ -58,19 +82,25 @@ static ff_status read_def(loading *l, const ff_crowd_def *run, ff_crowd_def *def
     return FF_OK;
 }
 
-/* Put a place on an error that was raised without one. */
+/* Put a place on an error that was raised without one, or with one in an array of the behaviour. */
 static ff_status placed(const loading *l, ff_status status, const char *section, const void *at)
 {
-    if (status == FF_OK || !l->error || l->error->section[0]) return status;
+    if (status == FF_OK) return status;
+    uint64_t byte = place(l, at);
+    for (uint32_t i = 0; i < FF_BEHAVIOUR_ARRAYS; ++i) {
+        if (strcmp(l->error->section, ff_behaviour_arrays[i].name) != 0) continue;
+        section = ff_behaviour_arrays[i].name;
+        byte = place(l, l->views[FF_SAVED_BEHAVIOUR + i].data) + l->error->byte_offset;
+    }
     char message[sizeof l->error->message];
     memcpy(message, l->error->message, sizeof message);
-    return ff_fail_section(l->error, status, section, place(l, at), "%s", message);
+    return ff_fail_section(l->error, status, section, byte, "%s", message);
 }
 
 static ff_status read_walls(const loading *l, ff_crowd *crowd)
 {
-    const unsigned char *at = l->views[WALL].data;
-    for (uint64_t i = 0; i < l->views[WALL].count; ++i, at += sizeof(ff_saved_wall)) {
+    const unsigned char *at = l->views[FF_SAVED_WALLS].data;
+    for (uint64_t i = 0; i < l->views[FF_SAVED_WALLS].count; ++i, at += sizeof(ff_saved_wall)) {
         ff_saved_wall wall;
         memcpy(&wall, at, sizeof wall);
         ff_status status = ff_crowd_add_wall(crowd, wall.from, wall.to, l->error);
@@ -84,13 +114,56 @@ static ff_status read_counts(const loading *l, ff_crowd *crowd)
     const ff_saved_head *head = &l->head;
     if (head->slot_count > crowd->def.max_agents || head->agent_count > head->slot_count)
         return ff_fail_section(l->error, FF_ERR_PARSE, "HEAD",
-                               place(l, l->views[HEAD].data) + offsetof(ff_saved_head, agent_count),
+                               place(l, l->views[FF_SAVED_HEAD].data) + offsetof(ff_saved_head, agent_count),
                                "%u agents in %u slots of a crowd of at most %u", head->agent_count,
                                head->slot_count, crowd->def.max_agents);
     crowd->steps = head->steps;
     crowd->agent_count = head->agent_count;
     crowd->slot_count = head->slot_count;
     crowd->free_first = head->free_first;
+    crowd->added = head->added;
+    crowd->spawned = head->spawned;
+    crowd->left = head->left;
+    return FF_OK;
+}
+
+static const char *wrong_spawning(const ff_spawning *spawning)
+{
+    return spawning->due >= 0.0 && spawning->due <= 1001.0 ? NULL : "a spawner is late by no number";
+}
+
+/* What all agents share. */
+static ff_status read_shared(const loading *l, ff_crowd *crowd)
+{
+    const ff_section_view *spawning = &l->views[FF_SAVED_SPAWNING], *shown = &l->views[FF_SAVED_SHOWN];
+    ff_behaviour *behaviour = crowd->behaviour;
+    uint32_t spawners = behaviour ? behaviour->def.spawner_count : 0;
+    uint32_t signals = behaviour ? behaviour->def.signal_count : 0;
+    if (spawning->count != spawners || shown->count != signals)
+        return ff_fail_section(l->error, FF_ERR_PARSE, "HEAD", place(l, l->views[FF_SAVED_HEAD].data),
+                               "%llu spawners and %llu signals, expected %u and %u",
+                               (unsigned long long)spawning->count, (unsigned long long)shown->count,
+                               spawners, signals);
+    if (!behaviour) return FF_OK;
+    for (uint32_t i = 0; i < spawners; ++i) {
+        const unsigned char *at = spawning->data + i * sizeof *behaviour->spawning;
+        memcpy(&behaviour->spawning[i], at, sizeof *behaviour->spawning);
+        behaviour->spawning[i].alive = 0; /* counted when the agents are there */
+        const char *wrong = wrong_spawning(&behaviour->spawning[i]);
+        if (wrong) return ff_fail_section(l->error, FF_ERR_PARSE, "SPWN", place(l, at), "%s", wrong);
+    }
+    for (uint32_t i = 0; i < signals; ++i) {
+        const unsigned char *at = shown->data + i * sizeof *behaviour->shown;
+        memcpy(&behaviour->shown[i], at, sizeof *behaviour->shown);
+        if (behaviour->shown[i] != FF_NONE && behaviour->shown[i] >= behaviour->def.signals[i].phase_count)
+            return ff_fail_section(l->error, FF_ERR_PARSE, "SHOW", place(l, at),
+                                   "a signal is made to show a phase that it has not");
+    }
+    behaviour->fault = l->head.fault;
+    if (behaviour->fault.number != FF_NONE && behaviour->fault.state >= behaviour->def.state_count)
+        return ff_fail_section(l->error, FF_ERR_PARSE, "HEAD",
+                               place(l, l->views[FF_SAVED_HEAD].data) + offsetof(ff_saved_head, fault),
+                               "a fault in a state that is none");
     return FF_OK;
 }
 
@@ -115,7 +188,7 @@ static ff_status copy_array(const loading *l, const ff_crowd *crowd, const ff_cr
 
 static ff_status read_arrays(const loading *l, ff_crowd *crowd, ff_array_kind kind)
 {
-    uint32_t section = FIRST_ARRAY;
+    uint32_t section = FF_SAVED_ARRAYS;
     for (uint32_t i = 0; i < ff_crowd_array_count(); ++i) {
         const ff_crowd_array *array = ff_crowd_array_at(i);
         if (array->kind == FF_ARRAY_STEP) continue;
@@ -161,12 +234,14 @@ static ff_status read_crowd(loading *l, const ff_crowd_def *run, ff_crowd **out)
     ff_status status = read_head(l);
     if (status == FF_OK) status = read_def(l, run, &def);
     if (status != FF_OK) return status;
-    status = placed(l, ff_crowd_create(l->pack, &def, out, l->error), "CDEF", l->views[DEF].data);
+    status = placed(l, ff_crowd_create(l->pack, &def, out, l->error), "CDEF", l->views[FF_SAVED_DEF].data);
     if (status == FF_OK) status = read_walls(l, *out);
     if (status == FF_OK) status = read_counts(l, *out);
+    if (status == FF_OK) status = read_shared(l, *out);
     if (status == FF_OK) status = read_arrays(l, *out, FF_ARRAY_SLOT);
     if (status == FF_OK) status = check_slots(l, *out);
     if (status == FF_OK) status = read_arrays(l, *out, FF_ARRAY_AGENT);
+    if (status == FF_OK && (*out)->behaviour) ff_crowd_behave_recount(*out);
     return status;
 }
 
@@ -181,6 +256,7 @@ ff_status ff_crowd_load(const ff_pack *pack, const void *data, size_t size, cons
     *l.error = (ff_error){0};
     ff_status status = read_sections(&l, size);
     if (status == FF_OK) status = read_crowd(&l, run, out);
+    free(l.block);
     if (status != FF_OK) {
         ff_crowd_destroy(*out);
         *out = NULL;

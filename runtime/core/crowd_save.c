@@ -25,9 +25,17 @@ static void lay_out(const ff_crowd *crowd, saved_layout *layout)
     layout->count = ff_crowd_section_kinds(layout->kinds);
     for (uint32_t s = 0; s < layout->count; ++s)
         layout->table[s] = (ff_pack_section){.tag = layout->kinds[s].tag, .stride = layout->kinds[s].stride};
-    layout->table[0].count = layout->table[1].count = 1;
-    layout->table[2].count = crowd->walls.count;
-    uint32_t s = 3;
+    layout->table[FF_SAVED_HEAD].count = layout->table[FF_SAVED_DEF].count = 1;
+    layout->table[FF_SAVED_WALLS].count = crowd->walls.count;
+    if (crowd->behaviour) {
+        const ff_behaviour_def *def = &crowd->behaviour->def;
+        layout->table[FF_SAVED_SPAWNING].count = def->spawner_count;
+        layout->table[FF_SAVED_SHOWN].count = def->signal_count;
+        for (uint32_t i = 0; i < FF_BEHAVIOUR_ARRAYS; ++i)
+            layout->table[FF_SAVED_BEHAVIOUR + i].count =
+                ff_behaviour_array_count(def, &ff_behaviour_arrays[i]);
+    }
+    uint32_t s = FF_SAVED_ARRAYS;
     for (uint32_t i = 0; i < ff_crowd_array_count(); ++i)
         if (ff_crowd_array_at(i)->kind != FF_ARRAY_STEP)
             layout->table[s++].count = records(crowd, ff_crowd_array_at(i));
@@ -40,17 +48,37 @@ static void write_fixed(const ff_crowd *crowd, const saved_layout *layout, unsig
     ff_saved_head head = {.pack_checksum = pack->checksum,
                           .pack_size = crowd->pack->size,
                           .steps = crowd->steps,
+                          .added = crowd->added,
+                          .spawned = crowd->spawned,
+                          .left = crowd->left,
                           .agent_count = crowd->agent_count,
                           .slot_count = crowd->slot_count,
-                          .free_first = crowd->free_first};
+                          .free_first = crowd->free_first,
+                          .fault.number = FF_NONE};
+    if (crowd->behaviour) head.fault = crowd->behaviour->fault;
     ff_saved_def def = ff_crowd_def_pack(&crowd->def);
-    memcpy(data + layout->table[0].offset, &head, sizeof head);
-    memcpy(data + layout->table[1].offset, &def, sizeof def);
-    unsigned char *at = data + layout->table[2].offset;
+    memcpy(data + layout->table[FF_SAVED_HEAD].offset, &head, sizeof head);
+    memcpy(data + layout->table[FF_SAVED_DEF].offset, &def, sizeof def);
+    unsigned char *at = data + layout->table[FF_SAVED_WALLS].offset;
     for (uint32_t i = 0; i < crowd->walls.count; ++i, at += sizeof(ff_saved_wall)) {
         ff_saved_wall wall = {crowd->walls.wall[i].from, crowd->walls.wall[i].to};
         memcpy(at, &wall, sizeof wall);
     }
+}
+
+static void write_section(const saved_layout *layout, uint32_t section, const void *from, unsigned char *data)
+{
+    if (layout->table[section].size > 0)
+        memcpy(data + layout->table[section].offset, from, layout->table[section].size);
+}
+
+static void write_behaviour(const ff_behaviour *behaviour, const saved_layout *layout, unsigned char *data)
+{
+    write_section(layout, FF_SAVED_SPAWNING, behaviour->spawning, data);
+    write_section(layout, FF_SAVED_SHOWN, behaviour->shown, data);
+    for (uint32_t i = 0; i < FF_BEHAVIOUR_ARRAYS; ++i)
+        write_section(layout, FF_SAVED_BEHAVIOUR + i,
+                      ff_behaviour_array_data(&behaviour->def, &ff_behaviour_arrays[i]), data);
 }
 
 static void write_array(const ff_crowd *crowd, const ff_crowd_array *array, unsigned char *at)
@@ -82,7 +110,8 @@ ff_status ff_crowd_save(const ff_crowd *crowd, void *data, size_t size, ff_error
     memcpy((unsigned char *)data + sizeof(ff_pack_header), layout.table,
            layout.count * sizeof layout.table[0]);
     write_fixed(crowd, &layout, data);
-    uint32_t s = 3;
+    if (crowd->behaviour) write_behaviour(crowd->behaviour, &layout, data);
+    uint32_t s = FF_SAVED_ARRAYS;
     for (uint32_t i = 0; i < ff_crowd_array_count(); ++i) {
         if (ff_crowd_array_at(i)->kind == FF_ARRAY_STEP) continue;
         const ff_pack_section *section = &layout.table[s++];

@@ -8,6 +8,7 @@
 #define FF_CROWD_STATE_H
 
 #include "runtime/core/base/tasks.h"
+#include "runtime/core/behave.h"
 #include "runtime/core/body.h"
 #include "runtime/core/crowd_arrays.h"
 #include "runtime/core/nav.h"
@@ -24,6 +25,7 @@ struct ff_crowd {
     ff_hull clip_hull; /* of those who walk on the semi-procedural clip */
     ff_walls walls;
     ff_grid grid;
+    ff_behaviour *behaviour; /* NULL: agents have goals only */
     ff_crowd_timings timings;
 
     uint64_t steps;
@@ -31,19 +33,23 @@ struct ff_crowd {
     uint32_t slot_count; /* slots ever used; the others are untouched */
     uint32_t free_first; /* slot + 1 of the free slot that is taken next; 0 = none, a new one is */
     uint32_t unused;
+    uint64_t added, spawned, left; /* as in ff_crowd_counts */
 
     /* Arrays of max_agents elements: each has a row in crowd_arrays.c. Per slot: */
     uint32_t *generation;
     uint32_t *alive;
     uint32_t *next_free; /* as free_first */
+    uint32_t *number;    /* of agents added before */
     ff_traits *traits;
     ff_mind *minds;
     ff_choice *choices;
     ff_body *bodies;
     ff_vec2 *velocity; /* m/s, of the root over the last step */
     ff_gait *gaits;
-    ff_rates *rates; /* of this step, as the body realised them */
+    ff_rates *rates;      /* of this step, as the body realised them */
+    ff_conduct *conducts; /* of a crowd with behaviour */
 
+    uint32_t *firing; /* per slot, of this step, with behaviour: transition of its state, or FF_NONE */
     /* per agent of this step, in the grid's order */
     ff_seen *unsorted; /* in slot order */
     ff_neighbour (*neighbours)[FF_NEIGHBOURS_MAX];

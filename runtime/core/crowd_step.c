@@ -1,7 +1,7 @@
 /* One step of a crowd, in phases; each is a loop over agents that reads the last step's state and writes its own
  * agent's records only (algorithms E). */
 #define _POSIX_C_SOURCE 199309L
-#include "runtime/core/crowd_state.h"
+#include "runtime/core/crowd_behave.h"
 
 #include <time.h>
 
@@ -196,6 +196,8 @@ void ff_crowd_step(ff_crowd *crowd)
 {
     ff_crowd_timings *spent = &crowd->timings;
     double start = ff_crowd_clock();
+    if (crowd->behaviour) ff_crowd_behave(crowd);
+    double behaved = ff_crowd_clock();
     snapshot(crowd);
     double seen = ff_crowd_clock();
     double found = run_phase(crowd, find_neighbours);
@@ -203,7 +205,8 @@ void ff_crowd_step(ff_crowd *crowd)
     double moved = run_phase(crowd, move);
     double stepped = run_phase(crowd, synthesise);
     ++crowd->steps;
-    spent->snapshot += seen - start;
+    spent->behaviour += behaved - start;
+    spent->snapshot += seen - behaved;
     spent->neighbours += found - seen;
     spent->navigation += decided - found;
     spent->bodies += moved - decided;

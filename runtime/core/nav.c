@@ -143,10 +143,12 @@ void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *n
             stand(&view, &lines, mind->preferred, mind);
         else
             walk(&view, &lines, preferred, mind);
-        return;
+    } else {
+        mind->command = traits->navigation == FF_NAVIGATION_ORCA ? ff_nav_orca(&view, preferred)
+                                                                 : ff_nav_social_force(&view, preferred);
+        mind->facing = ff_nav_facing((ff_facing_rule){FF_FACING_COMMAND, false}, preferred, mind->command,
+                                     mind->facing, world->step, &mind->strafing);
     }
-    mind->command = traits->navigation == FF_NAVIGATION_ORCA ? ff_nav_orca(&view, preferred)
-                                                             : ff_nav_social_force(&view, preferred);
-    mind->facing = ff_nav_facing((ff_facing_rule){FF_FACING_COMMAND, false}, preferred, mind->command,
-                                 mind->facing, world->step, &mind->strafing);
+    if (mind->standing)
+        mind->facing = ff_nav_face(traits->face, traits->face_at, view.me->position, mind->facing);
 }

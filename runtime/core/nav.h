@@ -11,7 +11,7 @@
 /* Above this preferred speed (m/s) people run where they can. */
 #define FF_RUN_PREFERRED 2.2
 
-/* What does not change from step to step. */
+/* What navigation does not change from step to step. */
 typedef struct ff_traits {
     ff_vec2 goal;           /* m */
     double goal_tolerance;  /* m */
@@ -19,6 +19,9 @@ typedef struct ff_traits {
     double radius;          /* m */
     uint32_t navigation;    /* FF_NAVIGATION_MCN, _ORCA or _SF */
     uint32_t synthesis;     /* FF_SYNTHESIS_BLENDING, _SEMI_PROCEDURAL or _HYBRID */
+    ff_vec2 face_at;        /* m, or a direction: where to look while standing */
+    uint32_t face;          /* FF_FACE_FREE, _POINT or _HEADING */
+    uint32_t unused;
 } ff_traits;
 
 /* Walks to its goal; stands at it; stands as near to it as others let it. */

@@ -5,6 +5,7 @@
 #define STRAFE_TIME 1.0                 /* s, algorithms C.9 */
 #define COOL_DOWN 1.0                   /* s after it, or the body would flip to and fro */
 #define STRAFE_SINE 0.25881904510252076 /* 15 degrees between facing and way are side-stepping */
+#define NEAR 0.05                       /* m: what is nearer has no direction */
 #define BACK_SPEED 0.9                  /* m/s: faster than that people turn round */
 
 /* FbCrowd 4.5. The paper calls it side-stepping when the product of facing and way is non-zero; meant is: not parallel. */
@@ -35,4 +36,11 @@ double ff_nav_facing(ff_facing_rule rule, ff_vec2 preferred, ff_vec2 command, do
     else if (rule.rule == FF_FACING_HALFWAY && ff_dot2(wish, way) > 0.0)
         face = ff_add2(wish, way);
     return ff_dot2(face, face) > 0.0 ? ff_atan2(face.b, face.a) : facing;
+}
+
+double ff_nav_face(uint32_t face, ff_vec2 at, ff_vec2 position, double facing)
+{
+    ff_vec2 way = face == FF_FACE_POINT ? ff_sub2(at, position) : at;
+    bool somewhere = face != FF_FACE_FREE && ff_dot2(way, way) > NEAR * NEAR;
+    return somewhere ? ff_atan2(way.b, way.a) : facing;
 }

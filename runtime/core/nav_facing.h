@@ -14,4 +14,7 @@ typedef struct ff_facing_rule {
 double ff_nav_facing(ff_facing_rule rule, ff_vec2 preferred, ff_vec2 command, double facing, double step,
                      double *strafing);
 
+/* Where one who stands shall look (FF_FACE_*): the heading to a point or of a direction; facing, when there is none. */
+double ff_nav_face(uint32_t face, ff_vec2 at, ff_vec2 position, double facing);
+
 #endif
