@@ -4,6 +4,8 @@
 #include "runtime/core/blend.h"
 #include "runtime/core/pose_stream.h"
 
+#define RUN_RISE 0.006        /* m */
+#define LEAST_RUN_LOCK 0.3    /* u */
 #define LEAST_SECTION 0.02    /* of the cycle, of a run */
 #define IDLE_STEP_PERIOD 1.15 /* s: of steps taken where the blend is nearly idle (96 steps per minute) */
 
@@ -68,6 +70,24 @@ static void read_locks(const ff_pack_example *example, ff_blend_vertex *vertex)
     }
 }
 
+/* Who runs lifts the ball well before the toe leaves: held down to the end of the pack's locks, which allow it 3 cm, the leg
+ * gets too long for it. So the lock ends where the ball has risen by RUN_RISE. */
+static void shorten_lock(const ff_blend_space *space, ff_blend_vertex *vertex, int foot)
+{
+    double lowest = 1e9;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (uint32_t i = 0; i < vertex->frame_count; ++i) {
+            const ff_pack_foot *at = &space->pack->feet[2 * (vertex->first_frame + i) + (uint32_t)foot];
+            double since =
+                wrap_phase(phase_of(vertex, (double)i / vertex->frame_count) - vertex->lock_start[foot]);
+            if (since >= vertex->lock_length[foot]) continue;
+            if (pass == 0) lowest = ff_min(lowest, (double)at->ball[2]);
+            if (pass == 1 && since > LEAST_RUN_LOCK && (double)at->ball[2] > lowest + RUN_RISE)
+                vertex->lock_length[foot] = since;
+        }
+    }
+}
+
 /* Fractions at which the sections of a cycle begin. A run's order is that of its own steps: the pack's keys name the same
  * events for both gaits. False: a run whose keys are in no order to run by. */
 static bool read_keys(const ff_pack_example *example, ff_blend_vertex *vertex)
@@ -98,6 +118,8 @@ static bool read_vertex(const ff_blend_space *space, uint32_t index, ff_blend_ve
             (ff_rates){(double)example->v_forward, (double)example->v_left, (double)example->turn_rate};
     bool usable = read_keys(example, vertex);
     if (usable) read_locks(example, vertex);
+    for (int foot = 0; foot < 2 && usable && example->gait == FF_GAIT_RUN; ++foot)
+        shorten_lock(space, vertex, foot);
     return usable;
 }
 

@@ -228,14 +228,13 @@ static double soft_max(double x, double y, double round)
     return x + 0.5 * (over + sqrt(over * over + round * round));
 }
 
-/* Raise the ball over an arc above the floor, and the heel over the floor until it strikes. */
-static void keep_clear(const ff_body_frame *body, ff_gait_foot *state, int foot)
+void ff_foot_clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot, double ease)
 {
-    double arc = 4.0 * state->progress * (1.0 - state->progress);
+    double arc = 4.0 * state->progress * (1.0 - state->progress), round = 0.01 * arc * ease;
     double heel = body->ball_rest + heel_rise(body, foot, state->pitch) +
                   HEEL_CLEARANCE * arc * ff_smooth((STRIKE - state->progress) / 0.3);
-    state->now.height = soft_max(state->now.height, body->ball_rest + LEAST_LIFT * arc * arc, 0.01 * arc);
-    state->now.height = soft_max(state->now.height, heel, 0.01 * arc);
+    state->now.height = soft_max(state->now.height, body->ball_rest + LEAST_LIFT * arc * arc, round);
+    state->now.height = soft_max(state->now.height, heel, round);
 }
 
 /* Height is the clip's own but for the ends of the swing: an offset led over the whole swing would, by its slopes, take
@@ -304,7 +303,7 @@ static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_f
     state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
     set_off(state);
     pass_beside(scene, state, other, foot);
-    keep_clear(&scene->space->body, state, foot);
+    ff_foot_clear_floor(&scene->space->body, state, foot, 1.0);
 }
 
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
@@ -318,7 +317,9 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     double time = ff_max(whole / scene->goal_tempo + scene->delay, 0.5 * whole / scene->goal_tempo);
     bool first = state->elapsed == 0.0;
     state->elapsed += scene->dt;
-    state->progress = ff_max(state->progress, state->elapsed / (state->elapsed + time));
+    /* What is left of the swing at the speed that fits the time left: elapsed / (elapsed + time) at a steady pace, and no jump
+     * when the pace changes. */
+    state->progress += (1.0 - state->progress) * scene->dt / ff_max(time + scene->dt, 1e-9);
 
     ff_foothold landing = clip_foot_later(scene, foot, start, time);
     ff_foothold wanted = stance_mean(scene, foot, landing, start, length, time);

@@ -28,6 +28,8 @@
 #define FIRST_PACE 0.2  /* ... and what it begins with: a foot that has stood sets off slowly */
 #define LEAST_SWING 0.3 /* u: a swing that would be shorter is left out */
 
+#define CLEAR_EASE 0.1 /* s after a switch, which itself must not move a foot */
+
 size_t ff_gait_size(void)
 {
     return sizeof(ff_gait);
@@ -201,6 +203,7 @@ static void add_offset(const ff_foot_scene *scene, const ff_pose_offset *offset,
     state->now.a += moved.a;
     state->now.b += moved.b;
     state->now.yaw += add.yaw;
+    ff_foot_clear_floor(&scene->space->body, state, foot, ff_min(offset->age / CLEAR_EASE, 1.0));
 }
 
 static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)

@@ -4,6 +4,7 @@
 
 #define SWAY_AHEAD 0.004 /* m, of standing hips */
 #define SWAY_ASIDE 0.008
+#define RUN_REACH 0.975 /* of the leg: who runs pushes off with a knee bent by 18 to 26 degrees (gait facts) */
 #define MOST_DROP 0.12   /* m */
 #define LANDING_SEEN 0.5 /* of the swing, from where on hips are lowered for its end */
 #define DROP_FREQUENCY                                                                                       \
@@ -88,7 +89,8 @@ void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cur
         int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
         ff_vec3 hip = ff_add3(hips, ff_quat_rotate(rotation, body->offset[joint]));
         ff_quat turn = ff_gait_foot_rotation(state->now.yaw, state->pitch);
-        double reach = FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]);
+        double reach = (gait->blend.way == FF_RUNNING ? RUN_REACH : FF_LEG_REACH) *
+                       (body->thigh[foot] + body->shank[foot]);
         wanted = ff_max(wanted, ff_gait_lack(hip, ff_gait_ankle(body, foot, state->now, turn), reach));
         wanted = ff_max(wanted, lack_at_landing(body, gait, foot, hip, heading, reach));
     }

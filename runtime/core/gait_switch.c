@@ -199,10 +199,9 @@ void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gai
     } else {
         if (!is_the_moment(space, gait, &blend, before, &phase)) return;
         if (!set_clock(space, &next, &blend, phase, until)) return;
-        bool urgent = gait->urgent != 0;
         take_over(space, gait, &next, root, until);
-        gait->urgent_switches += urgent;
+        ++gait->switches;
+        gait->urgent_switches += gait->urgent;
     }
-    ++gait->switches;
     gait->since_switch = gait->waited = 0.0;
 }

@@ -77,6 +77,7 @@ void ff_scene_def_free(ff_scene_def *def);
 ff_scene_def ff_scene_def_default(ff_scene_kind kind);
 
 const char *ff_navigation_name(ff_navigation navigation); /* as in files: "mcn" */
+ff_synthesis ff_synthesis_named(const char *name);        /* FF_SYNTHESIS_CROWD when nothing is called so */
 const char *ff_synthesis_name(ff_synthesis synthesis);    /* "hybrid" */
 /* The keys "navigation", "synthesis", "mcn" and "baseline" of a scene (scene_navigation.c). */
 ff_scene_navigation ff_scene_navigation_default(void);

@@ -22,6 +22,13 @@ const char *ff_synthesis_name(ff_synthesis synthesis)
     return synthesis_names[synthesis];
 }
 
+ff_synthesis ff_synthesis_named(const char *name)
+{
+    for (int i = 1; synthesis_names[i]; ++i)
+        if (strcmp(name, synthesis_names[i]) == 0) return (ff_synthesis)i;
+    return FF_SYNTHESIS_CROWD;
+}
+
 ff_scene_navigation ff_scene_navigation_default(void)
 {
     ff_crowd_def def = ff_crowd_def_default();

@@ -104,6 +104,16 @@ static json_t *report_times(const ff_watch *watch, const ff_run_facts *facts)
                      "bodies", spent->bodies * scale, "synthesis", spent->synthesis * scale);
 }
 
+static json_t *report_synthesis(const ff_watch *watch, const ff_synthesis_counts *counts)
+{
+    double all = ff_max(counts->blending_s + counts->semi_procedural_s + counts->running_s, 1e-9);
+    return json_pack("{s:s,s:f,s:f,s:f,s:I,s:I}", "method",
+                     ff_synthesis_name(watch->scene->navigation.synthesis), "blending",
+                     counts->blending_s / all, "semi_procedural", counts->semi_procedural_s / all, "running",
+                     counts->running_s / all, "transitions", (json_int_t)counts->transitions, "urgent",
+                     (json_int_t)counts->urgent);
+}
+
 json_t *ff_watch_report(ff_watch *watch, const ff_recording *recording, const ff_run_facts *facts)
 {
     char hash[24];
@@ -114,7 +124,7 @@ json_t *ff_watch_report(ff_watch *watch, const ff_recording *recording, const ff
     return json_pack(
         "{s:s,s:s,s:s,s:s,s:s,s:I,s:I,s:I,s:I,s:f,s:f,s:I,s:{s:f,s:f},s:f,s:{s:f,s:f,s:f},s:I,s:f,s:I,s:f,s:"
         "o,"
-        "s:o,s:f,s:f,s:o,s:s}",
+        "s:o,s:f,s:f,s:o,s:o,s:s}",
         "version", FF_VERSION, "scene", facts->scene_path, "kind", ff_scene_kind_name(watch->scene->kind),
         "navigation", ff_navigation_name(watch->scene->navigation.method), "pack", facts->pack_path, "seed",
         (json_int_t)facts->seed, "threads", (json_int_t)facts->threads, "agents", (json_int_t)m.agents,
@@ -125,5 +135,6 @@ json_t *ff_watch_report(ff_watch *watch, const ff_recording *recording, const ff
         m.deepest, "touching_bodies", (json_int_t)m.body_pairs, "max_body_penetration_m", m.body_deepest,
         "foot_skate_cm", report_slides(&m.planted), "foot_skate_unlabelled_cm", report_slides(&m.seen),
         "foot_skate_low_m_per_s", m.low_slide, "fastest_joint_degrees_per_s", m.joint_speed / FF_DEG,
-        "step_us_per_agent", report_times(watch, facts), "state_hash", hash);
+        "step_us_per_agent", report_times(watch, facts), "synthesis",
+        report_synthesis(watch, &facts->synthesis), "state_hash", hash);
 }

@@ -25,6 +25,7 @@ typedef struct ff_run_facts {
     uint32_t threads;
     uint64_t seed, state_hash;
     ff_crowd_timings timings;
+    ff_synthesis_counts synthesis;
 } ff_run_facts;
 
 ff_status ff_watch_create(const ff_scene *scene, const ff_figure *figure, ff_watch *out, ff_error *error);

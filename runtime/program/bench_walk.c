@@ -3,6 +3,7 @@
 #include "runtime/core/base/file.h"
 #include "runtime/export/gait_meter.h"
 #include "runtime/export/metrics.h"
+#include "runtime/export/scene.h"
 #include "runtime/export/text.h"
 #include "runtime/program/bench.h"
 #include "runtime/program/walk_drive.h"
@@ -18,7 +19,8 @@
 #define SKATE_P95 0.003
 
 typedef struct walk_options {
-    const char *pack, *course, *out, *json;
+    const char *pack, *course, *synthesis, *out, *json;
+    ff_synthesis way;
     double seconds, step;
     int64_t seed;
     bool check, quiet;
@@ -62,8 +64,8 @@ static ff_status walk_course(const walk_options *options, const ff_pack *pack,
     /* Scene time: several walkers of one course share it, those of a crowd are in the same scene. */
     double seconds = row->course->kind == FF_COURSE_GOALS ? options->seconds : options->seconds / count;
     if (status == FF_OK)
-        status = ff_walk_drive(pack, row->course, seconds, options->step, (uint64_t)options->seed, look,
-                               &watch, error);
+        status = ff_walk_drive(pack, row->course, options->way, seconds, options->step,
+                               (uint64_t)options->seed, look, &watch, error);
     for (uint32_t i = 0; i < count; ++i) {
         if (status == FF_OK) status = ff_gait_meter_finish(&watch.meters[i], error);
         if (status == FF_OK) status = ff_gait_meter_merge(&row->total, &watch.meters[i], error);
@@ -205,6 +207,10 @@ int ff_bench_walk_main(int argc, char **argv)
          .value_name = "NAME",
          .help = "only courses with this in their name",
          .text = &given.course},
+        {.name = "--synthesis",
+         .value_name = "NAME",
+         .help = "blending (default), semi-procedural or hybrid",
+         .text = &given.synthesis},
         {.name = "--seconds",
          .value_name = "S",
          .help = "scene time of each course (default 60)",
@@ -235,5 +241,10 @@ int ff_bench_walk_main(int argc, char **argv)
     int status = ff_command_parse(&command, argc, argv, &operands);
     if (status >= 0) return status;
     if (!given.pack) return ff_command_misuse(&command, "--pack FILE is missing");
+    given.way = ff_synthesis_named(given.synthesis ? given.synthesis : "blending");
+    if (given.way == FF_SYNTHESIS_CROWD)
+        return ff_command_misuse(&command,
+                                 "--synthesis is '%.40s'; it can be blending, semi-procedural or hybrid",
+                                 given.synthesis);
     return run_walk(&given);
 }

@@ -114,7 +114,8 @@ static ff_status write_metrics(crowd_run *run, json_t **metrics, ff_error *error
                           .threads = simulation->threads,
                           .seed = run->scene.seed,
                           .state_hash = simulation->state_hash,
-                          .timings = simulation->timings};
+                          .timings = simulation->timings,
+                          .synthesis = simulation->synthesis};
     char path[4096];
     path_in(run, "metrics.json", path, sizeof path);
     *metrics = ff_watch_report(&simulation->watch, &simulation->recording, &facts);

@@ -54,6 +54,20 @@ static bool is_near(const ff_scene *scene, uint32_t agent, const ff_agent_state 
     return ff_length2(ff_sub2(state->goal, state->position)) <= ff_scene_agents(scene)[agent].goal_tolerance;
 }
 
+static ff_status count_synthesis(const ff_crowd *crowd, ff_agent agent, ff_synthesis_counts *sum,
+                                 ff_error *error)
+{
+    ff_synthesis_counts one;
+    ff_status status = ff_crowd_synthesis_counts(crowd, agent, &one, error);
+    if (status != FF_OK) return status;
+    sum->blending_s += one.blending_s;
+    sum->semi_procedural_s += one.semi_procedural_s;
+    sum->running_s += one.running_s;
+    sum->transitions += one.transitions;
+    sum->urgent += one.urgent;
+    return FF_OK;
+}
+
 /* Put what every agent does now into the recording's next step. */
 static ff_status record(ff_simulation *simulation, ff_crowd *crowd, ff_agent *handles, ff_error *error)
 {
@@ -73,7 +87,8 @@ static ff_status record(ff_simulation *simulation, ff_crowd *crowd, ff_agent *ha
         if (ff_recording_wants_pose(recording)) ff_recording_set_pose(recording, i, hips, rotations);
         status = ff_watch_pose(&simulation->watch, simulation->figure, i, &state, hips, rotations, error);
         if (status == FF_OK && simulation->scene->leave && state.reached) {
-            status = ff_crowd_remove_agent(crowd, handles[i], error);
+            status = count_synthesis(crowd, handles[i], &simulation->synthesis, error);
+            if (status == FF_OK) status = ff_crowd_remove_agent(crowd, handles[i], error);
             handles[i] = (ff_agent){0, 0};
         }
     }
@@ -118,6 +133,7 @@ ff_status ff_simulate(ff_simulation *simulation, ff_error *error)
     if (status == FF_OK) status = create_crowd(simulation, &crowd, error);
     if (status == FF_OK) status = populate(scene, crowd, handles, error);
     if (status == FF_OK) status = run_steps(simulation, crowd, handles, error);
+    if (status == FF_OK) status = count_synthesis(crowd, (ff_agent){0, 0}, &simulation->synthesis, error);
     if (status == FF_OK) status = ff_skate_finish(&simulation->watch.skate, error);
     if (status == FF_OK) {
         simulation->state_hash = ff_crowd_state_hash(crowd);

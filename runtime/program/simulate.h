@@ -18,6 +18,7 @@ typedef struct ff_simulation {
     ff_watch watch;
     uint64_t state_hash;
     ff_crowd_timings timings;
+    ff_synthesis_counts synthesis; /* of everybody, those who left too */
 } ff_simulation;
 
 /* Run until everyone has stood at their goal for a second, or the scene's time is over. */

@@ -40,6 +40,12 @@ static const ff_course courses[] = {
     {"dodging", FF_COURSE_WAVES, {0.8, 0.25, 0.9}, 3.0, 2, 0.0},
     {"commands", FF_COURSE_COMMANDS, {1.8, 0.6, 0.0}, 2.0, 2, 0.0},
     {"hasty commands", FF_COURSE_COMMANDS, {1.8, 0.6, 0.0}, 0.7, 2, 0.0},
+    {"run 2.4", FF_COURSE_STEADY, {2.4, 0.0, 0.0}, 0.0, 2, 0.0},
+    {"run 3.0", FF_COURSE_STEADY, {3.0, 0.0, 0.0}, 0.0, 2, 0.0},
+    {"run a curve", FF_COURSE_STEADY, {2.6, 0.0, 0.5}, 0.0, 2, 0.0},
+    {"run, stops", FF_COURSE_STOPS, {2.8, 0.0, 0.0}, 6.1, 2, 0.0},
+    {"run, walk", FF_COURSE_WAVES, {2.0, 0.0, 0.4}, 9.0, 2, 0.0},
+    {"running goals", FF_COURSE_GOALS, {3.2, 0.0, 0.0}, 8.0, 2, 24.0},
     {"goals", FF_COURSE_GOALS, {2.0, 0.0, 0.0}, 8.0, 2, 12.0},
     {"crowd", FF_COURSE_GOALS, {1.6, 0.0, 0.0}, 8.0, 24, 8.0},
 };
@@ -60,6 +66,9 @@ typedef struct walker {
     ff_random random;
     ff_vec2 command; /* m/s, of a body */
     double facing, until;
+    ff_synthesis synthesis;
+    double change; /* s, when it changes */
+    bool control;
 } walker;
 
 static double towards(double now, double wanted, double most)
@@ -89,19 +98,36 @@ static ff_rates wanted_rates(const ff_course *course, double time)
     }
 }
 
-static ff_rates clamp_to_examples(const void *space, ff_rates target)
+static ff_rates clamp_to_gait(const void *context, ff_rates target)
 {
-    return ff_blend_clamp_turn(space, target);
+    const walker *w = context;
+    return ff_gait_clamp(w->space, w->gait, target);
 }
 
-/* Rates change no faster than people's, and are held to what the examples can do. */
+#define RUN 2.0    /* m/s, that nobody walks at */
+#define CHANGE 1.3 /* s between changes, on average */
+
+/* Which way to move: of a hybrid walker now this, now that; whoever is asked for more than a walk runs. */
+static void choose_way(walker *w, double time, double speed)
+{
+    if (w->synthesis == FF_SYNTHESIS_HYBRID && time >= w->change) {
+        w->change = time + CHANGE * ff_random_range(&w->random, 0.4, 1.6);
+        w->control = !w->control;
+    }
+    ff_locomotion way = w->control ? FF_SEMI_PROCEDURAL : FF_BLENDING;
+    ff_gait_want(w->space, w->gait, speed > RUN ? FF_RUNNING : way, false);
+}
+
+/* Rates change no faster than people's, and are held to what the way of moving can do. */
 static ff_rates follow_rates(walker *w, double time, double step)
 {
-    ff_rates wanted = ff_blend_clamp(w->space, wanted_rates(w->course, time)), now = w->body.rates;
+    ff_rates asked = wanted_rates(w->course, time);
+    choose_way(w, time, asked.forward);
+    ff_rates wanted = ff_gait_clamp(w->space, w->gait, asked), now = w->body.rates;
     now.forward = towards(now.forward, wanted.forward, SPEED_UP * step);
     now.left = towards(now.left, wanted.left, SPEED_UP * step);
     now.turn = towards(now.turn, wanted.turn, TURN_UP * step);
-    now = ff_blend_clamp(w->space, now);
+    now = ff_gait_clamp(w->space, w->gait, now);
     ff_vec2 ahead = ff_fwd2(w->body.heading + 0.5 * now.turn * step);
     w->body.position = ff_madd2(w->body.position, ff_from_frame2(ahead, ff_v2(now.forward, now.left)), step);
     w->body.heading = ff_wrap(w->body.heading + now.turn * step);
@@ -123,8 +149,8 @@ static ff_rates follow_commands(walker *w, double time, double step)
         }
         w->command = what > 0.6 && what < 0.7 ? ff_v2(0.0, 0.0) : ff_scale2(ff_fwd2(way), speed);
     }
-    ff_body_limits limits = {
-        .clamp = clamp_to_examples, .context = w->space, .radius = 0.3, .back_pedal = true};
+    choose_way(w, time, 0.0);
+    ff_body_limits limits = {.clamp = clamp_to_gait, .context = w, .radius = 0.3, .back_pedal = true};
     return ff_body_step(&w->body, w->command, w->facing, step, &limits);
 }
 
@@ -161,8 +187,9 @@ static ff_status walk_one(walker *w, uint32_t index, double seconds, double step
     return status;
 }
 
-static ff_status walk_each(const ff_pack *pack, const ff_course *course, double seconds, double step,
-                           uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error)
+static ff_status walk_each(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis,
+                           double seconds, double step, uint64_t seed, ff_walk_visit *visit, void *context,
+                           ff_error *error)
 {
     ff_blend_space *space;
     ff_status status = ff_blend_space_create(pack, &space, error);
@@ -170,7 +197,12 @@ static ff_status walk_each(const ff_pack *pack, const ff_course *course, double 
     ff_gait *gait = ff_calloc(1, ff_gait_size());
     if (!gait) status = ff_fail(error, FF_ERR_NO_MEMORY, "no memory for a walker");
     for (uint32_t i = 0; i < course->walkers && status == FF_OK; ++i) {
-        walker w = {.course = course, .space = space, .gait = gait, .random = {seed, i, 0}};
+        walker w = {.course = course,
+                    .space = space,
+                    .gait = gait,
+                    .random = {seed, i, 0},
+                    .synthesis = synthesis,
+                    .control = synthesis == FF_SYNTHESIS_SEMI_PROCEDURAL};
         status = walk_one(&w, i, seconds, step, visit, context, error);
     }
     free(gait);
@@ -218,14 +250,16 @@ static ff_status populate(ff_crowd *crowd, const ff_course *course, ff_random *r
     return status;
 }
 
-static ff_status walk_crowd(const ff_pack *pack, const ff_course *course, double seconds, double step,
-                            uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error)
+static ff_status walk_crowd(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis,
+                            double seconds, double step, uint64_t seed, ff_walk_visit *visit, void *context,
+                            ff_error *error)
 {
     ff_crowd *crowd;
     ff_crowd_def def = ff_crowd_def_default();
     def.max_agents = course->walkers;
     def.step = step;
     def.seed = seed;
+    def.synthesis = synthesis;
     ff_random random = {seed, 0, 0};
     ff_agent *agents = ff_calloc(course->walkers, sizeof *agents);
     if (!agents) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %u walkers", course->walkers);
@@ -245,10 +279,10 @@ static ff_status walk_crowd(const ff_pack *pack, const ff_course *course, double
     return status;
 }
 
-ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, double seconds, double step,
-                        uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error)
+ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis, double seconds,
+                        double step, uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error)
 {
     return course->kind == FF_COURSE_GOALS
-               ? walk_crowd(pack, course, seconds, step, seed, visit, context, error)
-               : walk_each(pack, course, seconds, step, seed, visit, context, error);
+               ? walk_crowd(pack, course, synthesis, seconds, step, seed, visit, context, error)
+               : walk_each(pack, course, synthesis, seconds, step, seed, visit, context, error);
 }

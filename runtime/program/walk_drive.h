@@ -35,8 +35,9 @@ typedef struct ff_walk_pose {
 
 typedef ff_status ff_walk_visit(void *context, const ff_walk_pose *pose, ff_error *error);
 
-/* Walk a course for so many seconds, with everybody's first pose and the pose after each step shown to visit. */
-ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, double seconds, double step,
-                        uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error);
+/* Walk a course for so many seconds by a way of moving, of which hybrid here means: changing every second or so, where there
+ * is no crowd that calls for it. With everybody's first pose and the pose after each step shown to visit. */
+ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis, double seconds,
+                        double step, uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error);
 
 #endif
