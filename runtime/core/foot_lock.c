@@ -128,6 +128,7 @@ void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, dou
     ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
     state->planted = 0;
     state->stood = ff_max(standing, 1.0 - ff_smooth((scene->tempo - STOOD_TEMPO) / STOOD_TEMPO));
+    state->stood = ff_max(state->stood, ff_foot_closing(scene->rates));
     double pitch = state->pitch;
     ff_foot_hold(scene, state, foot, standing); /* the offsets below are between things of one moment */
     state->pitch =

@@ -8,6 +8,7 @@
 
 #define RATE_SMOOTHING                                                                                       \
     0.10                 /* s: the blend follows the root's rates with this lag, the feet take up the rest */
+#define HARDLY_MOVES 0.25 /* m/s, turning counted as in the blend space */
 #define STAND_TIME 0.35  /* s from the walking to the standing pose and back */
 #define SETTLED 0.6      /* of the way to the standing pose, from where on a step may begin */
 #define START_SPEED 0.12 /* m/s and rad/s above which a standing body begins to step ... */
@@ -229,6 +230,16 @@ static void follow_rates(ff_gait *gait, ff_rates rates, double dt)
     gait->rates.turn += share * (rates.turn - gait->rates.turn);
 }
 
+/* What the blend is asked for. Weights are linear in the rates, so where these pass through zero they would turn on the spot,
+ * and with them the pose: near zero the blend goes by the square. The feet do not mind, they are led by the root. */
+static ff_rates blend_rates(ff_rates rates)
+{
+    double x = ff_length3(ff_blend_point(rates)) / HARDLY_MOVES;
+    if (x >= 1.0) return rates;
+    double share = x * (2.0 - x);
+    return (ff_rates){rates.forward * share, rates.left * share, rates.turn * share};
+}
+
 /* The clock of the steps: hurries when the body leaves its feet behind, and takes up its pace gradually. */
 static void advance_phase(const ff_blend_space *space, ff_gait *gait, ff_foot_scene *scene)
 {
@@ -259,7 +270,7 @@ void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_r
     double heading = root->heading;
     ff_rates rates = root->rates;
     follow_rates(gait, rates, dt);
-    ff_locomotion_find(space, (ff_locomotion)gait->blend.way, gait->rates, &gait->blend);
+    ff_locomotion_find(space, (ff_locomotion)gait->blend.way, blend_rates(gait->rates), &gait->blend);
     gait->idle_time += dt;
     ff_pose_offset_advance(&gait->offset, dt);
 

@@ -71,14 +71,18 @@ static ff_quat foot_rotation(const ff_gait_foot *state, ff_quat clip)
     return ff_quat_nlerp(flat, free, share);
 }
 
+#define ROLLS (20.0 * FF_DEG) /* pitch of a foot that is up on its toes */
+#define FLIES 0.08            /* of the swing, from where on, and until where before its end, a foot flies */
+
 static void pose_leg(const ff_body_frame *body, const ff_gait_foot *state, int foot, ff_vec3 hips,
                      ff_quat hips_turn, ff_quat *rotations)
 {
     ff_leg leg = ff_leg_of_clip(body, foot, hips, hips_turn, rotations);
     double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
+    double swing = state->planted ? 0.0 : state->progress;
+    double round = ff_max(ff_smooth(-state->pitch / ROLLS), ff_min(ff_min(swing, 1.0 - swing) / FLIES, 1.0));
     ff_leg_target target = {
-        state->now, foot_rotation(state, leg.foot),        TOE_CLEARANCE * arc, MOST_RAISE,
-        1.0,        state->planted ? 0.0 : state->progress};
+        state->now, foot_rotation(state, leg.foot), TOE_CLEARANCE * arc, MOST_RAISE, 1.0, swing, round};
     ff_leg_pose(body, foot, &target, &leg, hips_turn, rotations);
 }
 

@@ -2,7 +2,7 @@
 
 #define SOFT_FROM 0.99
 #define SOFT_TO 0.998
-#define SWING_FROM 0.965
+#define SWING_FROM 0.95
 #define SWING_TO 0.993
 
 static double ease(double distance, double from, double to)

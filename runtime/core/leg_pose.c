@@ -4,20 +4,18 @@
 
 #define SWING_BEYOND                                                                                         \
     0.08 /* of the reach: what a foot may be too far off in mid swing; at both ends its heel stays up */
-#define ROUND_REACH 0.025 /* of the leg, over which a foot that comes back into reach is let go ... */
-#define ROUND_SHARE 0.08  /* ... from so much of the swing on, and until as much before its end */
-#define SWING_TAKES 0.15  /* of the swing, in which a leg becomes free to fall short of its foot ... */
-#define SWING_GIVES 0.25  /* ... and before the landing no longer is */
+#define ROUND_REACH                                                                                          \
+    0.025 /* of the leg, over which the corner is rounded where a foot gets out of reach and back */
+#define SWING_TAKES 0.15 /* of the swing, in which a leg becomes free to fall short of its foot ... */
+#define SWING_GIVES 0.25 /* ... and before the landing no longer is */
 
-/* How far from the hip the ankle may be: FF_LEG_REACH for a foot on the ground. The corner where a swinging foot comes into
- * reach is rounded, or the knee would bend all at once. */
-static double allowed_distance(double swing, double distance, double leg_length)
+/* How far from the hip the ankle may be: FF_LEG_REACH for a foot on the ground. Where the foot rolls or flies, the corner is
+ * rounded, or the knee would stop and bend all at once. */
+static double allowed_distance(const ff_leg_target *target, double distance, double leg_length)
 {
-    double reach = FF_LEG_REACH * leg_length, rest = 1.0 - swing;
-    if (!(swing > 0.0)) return ff_min(distance, reach);
-    reach *= 1.0 + SWING_BEYOND * ff_smooth(swing / 0.4) * ff_smooth(rest / 0.4);
-    double round = ROUND_REACH * leg_length * ff_min(ff_min(swing, rest) / ROUND_SHARE, 1.0);
-    double over = distance - reach;
+    double reach = FF_LEG_REACH * leg_length, swing = target->swing;
+    reach *= 1.0 + SWING_BEYOND * ff_smooth(swing / 0.4) * ff_smooth((1.0 - swing) / 0.4);
+    double round = ROUND_REACH * leg_length * target->round, over = distance - reach;
     if (fabs(over) >= round) return ff_min(distance, reach);
     return distance - (over + round) * (over + round) / (4.0 * round);
 }
@@ -31,24 +29,25 @@ static ff_vec3 swing_in_reach(double swing, ff_vec3 hip, ff_vec3 ankle, double l
     return ff_madd3(hip, away, ff_leg_swing_reach(distance, leg_length, share) / distance);
 }
 
-/* A planted foot out of reach lifts its heel about the ball before anything slides: by the least angle that brings the
- * ankle within reach, found by bisection. */
+/* A foot out of reach lifts its heel about the ball before anything slides: by the least angle that brings the ankle within
+ * reach of the hip, or, where none does, as near as it gets. Seen along the axis through the ball, the ankle goes round a
+ * circle, and the cosine law gives the angle between it and the hip. */
 static ff_quat heel_in_reach(const ff_body_frame *body, ff_foothold ball, int foot, ff_vec3 hip,
                              ff_quat rotation, double reach, double most)
 {
-    ff_vec3 lateral = ff_v3(ff_cos(ball.yaw), 0.0, -ff_sin(ball.yaw));
-    double low = 0.0, high = most;
-    for (int i = 0; i < 12; ++i) {
-        double middle = 0.5 * (low + high);
-        ff_quat raised = ff_quat_mul(ff_quat_axis(lateral, middle), rotation);
-        ff_vec3 ankle = ff_gait_ankle(body, foot, ball, raised);
-        if (ff_length3(ff_sub3(ankle, hip)) <= reach) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    return ff_quat_mul(ff_quat_axis(lateral, high), rotation);
+    ff_vec3 lateral = ff_v3(ff_cos(ball.yaw), 0.0, -ff_sin(ball.yaw)),
+            ahead = ff_v3(-lateral.z, 0.0, lateral.x);
+    ff_vec3 centre = ff_v3(ball.b, ball.height, ball.a);
+    ff_vec3 ankle = ff_sub3(ff_gait_ankle(body, foot, ball, rotation), centre), to_hip = ff_sub3(hip, centre);
+    double ankle_ahead = ff_dot3(ankle, ahead), hip_ahead = ff_dot3(to_hip, ahead);
+    double aside = ff_dot3(to_hip, lateral) - ff_dot3(ankle, lateral);
+    double near2 = ankle_ahead * ankle_ahead + ankle.y * ankle.y;
+    double far2 = hip_ahead * hip_ahead + to_hip.y * to_hip.y;
+    double cosine =
+        (near2 + far2 + aside * aside - reach * reach) / (2.0 * sqrt(ff_max(near2 * far2, 1e-12)));
+    double between = ff_atan2(hip_ahead, to_hip.y) - ff_atan2(ankle_ahead, ankle.y);
+    double raise = ff_clamp(ff_wrap(between) - ff_acos(cosine), 0.0, most);
+    return ff_quat_mul(ff_quat_axis(lateral, raise), rotation);
 }
 
 /* Toes bend up where the floor is in their way: at push-off, and in mid swing to keep clear of it. */
@@ -88,7 +87,7 @@ void ff_leg_pose(const ff_body_frame *body, int foot, const ff_leg_target *targe
     leg->foot = target->turn;
     ff_vec3 ankle = ff_gait_ankle(body, foot, target->ball, leg->foot);
     double distance = ff_length3(ff_sub3(ankle, leg->hip));
-    double allowed = allowed_distance(target->swing, distance, length);
+    double allowed = allowed_distance(target, distance, length);
     if (target->grip > 0.0 && distance > allowed) {
         ff_quat raised =
             heel_in_reach(body, target->ball, foot, leg->hip, leg->foot, allowed, target->most_raise);

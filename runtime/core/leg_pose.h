@@ -16,8 +16,8 @@ typedef struct ff_leg_target {
     double most_raise; /* rad, that the heel may be lifted by for the ankle to be in reach */
     /* 1: planted, out of reach it lifts its heel. 0: in the air, out of reach it is not quite reached. */
     double grip;
-    double
-        swing; /* 0: not in swing, else its progress to 1: the leg falls short of its foot, and comes back, gradually */
+    double swing; /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
+    double round; /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
 } ff_leg_target;
 
 /* Solve leg (as ff_leg_of_clip gives it) to the target and write the leg's four local rotations, of which the toes' are

@@ -240,7 +240,7 @@ static void pose_leg(const ff_body_frame *body, const ff_play_targets *at, int f
     ff_leg leg = ff_leg_of_clip(body, foot, at->hips, hips_turn, at->rotations);
     ff_foothold ball = {at->ball[foot].z, at->ball[foot].x, at->ball[foot].y,
                         ff_play_foot_yaw(at->foot[foot])};
-    ff_leg_target target = {ball, at->foot[foot], 0.0, MOST_RAISE, at->grip[foot], 0.0};
+    ff_leg_target target = {ball, at->foot[foot], 0.0, MOST_RAISE, at->grip[foot], 0.0, 0.0};
     ff_leg_pose(body, foot, &target, &leg, hips_turn, rotations);
 }
 
