@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-#define HARDLY (20.0 * FF_DEG) /* rad/s: no joint counts as slower than that, or one that never moves could not at all */
-#define MIDDLE_FROM 0.35 /* of the swing: mid swing */
+#define STILL (60.0 * FF_DEG) /* rad/s: a joint that is never faster is not really moved in the database */
+#define MIDDLE_FROM 0.35      /* of the swing: mid swing */
 #define MIDDLE_TO 0.65
 
 /* ------------------------------------------------------------------------------------------------ the standard */
@@ -16,17 +16,26 @@ static double turn_speed(ff_quat from, ff_quat to, double step)
     return ff_quat_angle(ff_quat_mul(ff_quat_conj(from), to)) / step;
 }
 
-/* Speeds at every step of a stream; a cyclic one is gone round once. */
-static ff_status learn_stream(const ff_pack *pack, uint32_t stream, ff_gait_standard *standard,
-                              ff_error *error)
+/* How joints are turned, and then their bones as a whole, against the heading. */
+static void turns_of(const ff_figure *figure, const ff_quat *rotations, ff_quat *out)
 {
-    ff_quat now[FF_FIGURE_MAX_JOINTS], last[FF_FIGURE_MAX_JOINTS];
+    uint32_t count = figure->joint_count;
+    memcpy(out, rotations, count * sizeof *out);
+    ff_figure_place(figure, ff_v3(0.0, 0.0, 0.0), rotations, NULL, out + count);
+}
+
+/* Speeds at every step of an example. */
+static ff_status learn_stream(const ff_pack *pack, uint32_t stream, ff_gait_standard *standard,
+                              double *fastest, ff_error *error)
+{
+    ff_quat pose[FF_FIGURE_MAX_JOINTS], now[2 * FF_FIGURE_MAX_JOINTS], last[2 * FF_FIGURE_MAX_JOINTS];
     uint32_t count = (uint32_t)(ff_pack_stream_seconds(pack, stream) / standard->step);
     for (uint32_t k = 0; k <= count; ++k) {
-        ff_status status = ff_pack_sample(pack, stream, k * standard->step, 0, NULL, NULL, now, error);
+        ff_status status = ff_pack_sample(pack, stream, k * standard->step, 0, NULL, NULL, pose, error);
         if (status != FF_OK) return status;
-        for (uint32_t j = 0; j < standard->figure->joint_count && k > 0; ++j)
-            standard->fastest[j] = ff_max(standard->fastest[j], turn_speed(last[j], now[j], standard->step));
+        turns_of(standard->figure, pose, now);
+        for (uint32_t j = 0; j < 2 * standard->figure->joint_count && k > 0; ++j)
+            fastest[j] = ff_max(fastest[j], turn_speed(last[j], now[j], standard->step));
         memcpy(last, now, sizeof now);
     }
     return FF_OK;
@@ -37,6 +46,26 @@ static void even_out(double *fastest, int left, int right, int count)
 {
     for (int k = 0; k < count; ++k)
         fastest[left + k] = fastest[right + k] = ff_max(fastest[left + k], fastest[right + k]);
+}
+
+static ff_status learn_speeds(const ff_pack *pack, ff_gait_standard *standard, ff_error *error)
+{
+    double fastest[2 * FF_FIGURE_MAX_JOINTS] = {0};
+    uint32_t count = standard->figure->joint_count;
+    ff_status status = FF_OK;
+    for (uint32_t i = 0; i < pack->example_count && status == FF_OK; ++i)
+        if (!(pack->examples[i].flags & FF_EXAMPLE_DERIVED))
+            status = learn_stream(pack, pack->examples[i].stream, standard, fastest, error);
+    for (int half = 0; half < 2; ++half) {
+        even_out(fastest + half * (int)count, FF_JOINT_CLAVICLE_L, FF_JOINT_CLAVICLE_R,
+                 FF_JOINT_CLAVICLE_R - FF_JOINT_CLAVICLE_L);
+        even_out(fastest + half * (int)count, FF_JOINT_HIP_L, FF_JOINT_HIP_R, FF_JOINT_LEG_STRIDE);
+    }
+    for (uint32_t j = 0; j < count; ++j) {
+        standard->as_bone[j] = fastest[j] < STILL;
+        standard->fastest[j] = ff_max(standard->as_bone[j] ? fastest[count + j] : fastest[j], STILL);
+    }
+    return status;
 }
 
 ff_status ff_gait_standard_make(const ff_pack *pack, const ff_figure *figure, double step,
@@ -59,15 +88,7 @@ ff_status ff_gait_standard_make(const ff_pack *pack, const ff_figure *figure, do
             if (point->kind == FF_POINT_TOE_L + foot) out->toe[foot] = offset;
         }
     }
-    ff_status status = FF_OK;
-    for (uint32_t s = 0; s < ff_pack_stream_count(pack) && status == FF_OK; ++s)
-        status = learn_stream(pack, s, out, error);
-    even_out(out->fastest, FF_JOINT_CLAVICLE_L, FF_JOINT_CLAVICLE_R,
-             FF_JOINT_CLAVICLE_R - FF_JOINT_CLAVICLE_L);
-    even_out(out->fastest, FF_JOINT_HIP_L, FF_JOINT_HIP_R, FF_JOINT_LEG_STRIDE);
-    for (uint32_t j = 0; j < figure->joint_count; ++j)
-        out->fastest[j] = ff_max(out->fastest[j], HARDLY);
-    return status;
+    return learn_speeds(pack, out, error);
 }
 
 /* -------------------------------------------------------------------------------------------------- the walker */
@@ -150,12 +171,14 @@ static void watch_swing(ff_gait_meter *meter, int foot, bool planted, double cle
     }
 }
 
-static void watch_joints(ff_gait_meter *meter, const ff_quat *rotations, double time)
+static void watch_joints(ff_gait_meter *meter, const ff_quat *turns, double time)
 {
     const ff_gait_standard *standard = meter->standard;
     double worst = 0.0;
-    for (uint32_t j = 0; j < standard->figure->joint_count; ++j) {
-        double ratio = turn_speed(meter->last[j], rotations[j], standard->step) / standard->fastest[j];
+    uint32_t count = standard->figure->joint_count;
+    for (uint32_t j = 0; j < count; ++j) {
+        uint32_t k = standard->as_bone[j] ? count + j : j;
+        double ratio = turn_speed(meter->last[k], turns[k], standard->step) / standard->fastest[j];
         worst = ff_max(worst, ratio);
         worsen(&meter->joint, ratio, time, (int32_t)j, 1.0);
     }
@@ -167,14 +190,15 @@ ff_status ff_gait_meter_add(ff_gait_meter *meter, double heading, const uint8_t 
 {
     const ff_gait_standard *standard = meter->standard;
     ff_vec3 joints[FF_FIGURE_MAX_JOINTS];
-    ff_quat turns[FF_FIGURE_MAX_JOINTS], local[FF_FIGURE_MAX_JOINTS];
+    ff_quat turns[FF_FIGURE_MAX_JOINTS], local[FF_FIGURE_MAX_JOINTS], both[2 * FF_FIGURE_MAX_JOINTS];
     uint32_t count = standard->figure->joint_count;
     double time = (double)meter->poses * standard->step;
     ff_figure_place(standard->figure, hips, rotations, joints, turns);
     memcpy(local, rotations, count * sizeof *local);
     local[FF_JOINT_HIPS] = ff_quat_mul(ff_quat_yaw(-heading), rotations[FF_JOINT_HIPS]);
-    if (meter->poses > 0) watch_joints(meter, local, time);
-    memcpy(meter->last, local, count * sizeof *local);
+    turns_of(standard->figure, local, both);
+    if (meter->poses > 0) watch_joints(meter, both, time);
+    memcpy(meter->last, both, 2 * count * sizeof *both);
     for (int foot = 0; foot < 2; ++foot) {
         int hip = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
         watch_knee(meter, foot, bend_of_knee(joints, hip), time);

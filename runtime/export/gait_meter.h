@@ -12,9 +12,10 @@ typedef struct ff_gait_standard {
     double step;             /* s between poses */
     double ball_rest[2];     /* m, height of the balls of a flat foot */
     ff_vec3 heel[2], toe[2]; /* m, in the ankle's and in the ball's frame */
-    /* rad/s, the fastest that each joint is turned in any clip or example of the pack, left or right; the hips' against
-     * the heading. */
+    /* rad/s, the fastest that each joint is turned in any captured example of the pack, left or right (the hips against the
+     * heading); where the captures do not move it (clavicles, wrists), the fastest of the bone against the heading. */
     double fastest[FF_FIGURE_MAX_JOINTS];
+    bool as_bone[FF_FIGURE_MAX_JOINTS];
 } ff_gait_standard;
 
 /* Reads all the pack's streams. figure is that of the pack. */
@@ -40,7 +41,7 @@ typedef struct ff_gait_meter {
     const ff_gait_standard *standard; /* borrowed */
     ff_skate skate;
     ff_gait_meter_foot foot[2];
-    ff_quat last[FF_FIGURE_MAX_JOINTS];
+    ff_quat last[2 * FF_FIGURE_MAX_JOINTS]; /* joints, bones */
     uint64_t poses;
     uint64_t pops, bends;      /* knee accelerations above FF_KNEE_POP, and all */
     uint64_t fast;             /* poses with a joint above FF_JOINT_FASTER times its fastest */

@@ -1,6 +1,8 @@
 /* bench_walk.c - `footfall-crowd bench walk`: how people walk, on courses of every kind: planted feet that slide, knees
  * that pop, joints faster than the database's, feet that scrape the floor or brush each other. */
 #include "runtime/core/base/file.h"
+#include "runtime/core/pack.h"
+#include "runtime/export/film_walk.h"
 #include "runtime/export/gait_meter.h"
 #include "runtime/export/metrics.h"
 #include "runtime/export/scene.h"
@@ -10,6 +12,7 @@
 #include "runtime/tool/command_line.h"
 #include "runtime/tool/progress.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,13 +20,13 @@
 #define PROGRAM "footfall-crowd"
 #define SKATE_MEDIAN 0.001 /* m per plant */
 #define SKATE_P95 0.003
+#define FILM_SECONDS 12.0 /* of each course */
 
 typedef struct walk_options {
     const char *pack, *course, *synthesis, *out, *json;
-    ff_synthesis way;
     double seconds, step;
     int64_t seed;
-    bool check, quiet;
+    bool examples, check;
 } walk_options;
 
 /* Of all walkers of a course. */
@@ -35,12 +38,27 @@ typedef struct walk_row {
 
 /* One course under way. */
 typedef struct walk_watch {
-    ff_gait_meter *meters; /* [walkers] */
+    ff_gait_meter *meters;   /* [walkers] */
+    ff_recording *recording; /* of the first walker, for the film; NULL = none */
 } walk_watch;
+
+static ff_status record(ff_recording *recording, const ff_walk_pose *pose, ff_error *error)
+{
+    if (recording->step_count * recording->step > FILM_SECONDS) return FF_OK;
+    ff_status status = ff_recording_begin(recording, error);
+    if (status != FF_OK) return status;
+    ff_recording_set_track(recording, 0, &pose->state);
+    if (ff_recording_wants_pose(recording)) ff_recording_set_pose(recording, 0, pose->hips, pose->rotations);
+    return FF_OK;
+}
 
 static ff_status look(void *context, const ff_walk_pose *pose, ff_error *error)
 {
     walk_watch *watch = context;
+    if (watch->recording && pose->walker == 0) {
+        ff_status status = record(watch->recording, pose, error);
+        if (status != FF_OK) return status;
+    }
     return ff_gait_meter_add(&watch->meters[pose->walker], pose->state.heading, pose->state.planted,
                              pose->hips, pose->rotations, error);
 }
@@ -52,28 +70,73 @@ static void take_quantiles(ff_array *slides, double out[3])
         out[i] = ff_quantile(slides->data, slides->count, at[i]);
 }
 
-static ff_status walk_course(const walk_options *options, const ff_pack *pack,
-                             const ff_gait_standard *standard, walk_row *row, ff_error *error)
+typedef struct walk_bench {
+    const walk_options *options;
+    ff_synthesis synthesis;
+    ff_pack *pack;
+    ff_figure figure;
+    ff_gait_standard standard;
+    ff_course *examples; /* as courses */
+    json_t *rows;
+    uint32_t walked, broken;
+} walk_bench;
+
+static ff_status walk_and_look(const walk_bench *bench, walk_row *row, walk_watch *watch, ff_error *error)
 {
-    uint32_t count = row->course->walkers;
-    walk_watch watch = {ff_calloc(count, sizeof *watch.meters)};
-    if (!watch.meters) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory to watch %u walkers", count);
-    ff_status status = ff_gait_meter_create(standard, &row->total, error);
-    for (uint32_t i = 0; i < count && status == FF_OK; ++i)
-        status = ff_gait_meter_create(standard, &watch.meters[i], error);
+    const walk_options *options = bench->options;
+    const ff_course *course = row->course;
+    ff_walk_def def = {options->seconds, options->step, (uint64_t)options->seed, bench->synthesis};
     /* Scene time: several walkers of one course share it, those of a crowd are in the same scene. */
-    double seconds = row->course->kind == FF_COURSE_GOALS ? options->seconds : options->seconds / count;
-    if (status == FF_OK)
-        status = ff_walk_drive(pack, row->course, options->way, seconds, options->step,
-                               (uint64_t)options->seed, look, &watch, error);
-    for (uint32_t i = 0; i < count; ++i) {
-        if (status == FF_OK) status = ff_gait_meter_finish(&watch.meters[i], error);
-        if (status == FF_OK) status = ff_gait_meter_merge(&row->total, &watch.meters[i], error);
-        ff_gait_meter_free(&watch.meters[i]);
+    if (course->kind != FF_COURSE_GOALS) def.seconds /= course->walkers;
+    ff_status status = ff_gait_meter_create(&bench->standard, &row->total, error);
+    for (uint32_t i = 0; i < course->walkers && status == FF_OK; ++i)
+        status = ff_gait_meter_create(&bench->standard, &watch->meters[i], error);
+    if (status == FF_OK) status = ff_walk_drive(bench->pack, course, &def, look, watch, error);
+    for (uint32_t i = 0; i < course->walkers; ++i) {
+        if (status == FF_OK) status = ff_gait_meter_finish(&watch->meters[i], error);
+        if (status == FF_OK) status = ff_gait_meter_merge(&row->total, &watch->meters[i], error);
+        ff_gait_meter_free(&watch->meters[i]);
     }
-    free(watch.meters);
     take_quantiles(&row->total.skate.planted, row->skate);
     take_quantiles(&row->total.skate.seen, row->seen);
+    return status;
+}
+
+/* A name as part of a file's: letters, digits, dots and dashes. */
+static void file_name(const char *name, char *out, size_t size)
+{
+    size_t k = 0;
+    for (; name[k] && k + 1 < size; ++k)
+        out[k] = isalnum((unsigned char)name[k]) || name[k] == '.' ? name[k] : '-';
+    out[k] = 0;
+}
+
+static ff_status film(const walk_bench *bench, const char *name, const ff_recording *recording,
+                      ff_error *error)
+{
+    char path[4096], part[80];
+    file_name(name, part, sizeof part);
+    snprintf(path, sizeof path, "%s/%s.png", bench->options->out, part);
+    return ff_film_walk_write(path, &bench->figure, recording, name, error);
+}
+
+static ff_status walk_course(const walk_bench *bench, walk_row *row, ff_error *error)
+{
+    ff_recording recording = {0};
+    walk_watch watch = {.meters = ff_calloc(row->course->walkers, sizeof *watch.meters)};
+    ff_status status = FF_OK;
+    if (!watch.meters)
+        return ff_fail(error, FF_ERR_NO_MEMORY, "no memory to watch %u walkers", row->course->walkers);
+    if (bench->options->out) {
+        double step = bench->options->step;
+        status = ff_recording_create(1, bench->figure.joint_count, step, (uint64_t)(FILM_SECONDS / step) + 2,
+                                     &recording, error);
+        watch.recording = &recording;
+    }
+    if (status == FF_OK) status = walk_and_look(bench, row, &watch, error);
+    if (status == FF_OK && watch.recording) status = film(bench, row->course->name, &recording, error);
+    ff_recording_free(&recording);
+    free(watch.meters);
     return status;
 }
 
@@ -140,55 +203,72 @@ static json_t *row_json(const walk_row *row, const ff_figure *figure)
                      per(m->close, m->poses, 1e6), "broken", bad ? bad : "");
 }
 
-typedef struct walk_bench {
-    const walk_options *options;
-    ff_pack *pack;
-    ff_figure figure;
-    ff_gait_standard standard;
-    json_t *rows;
-    uint32_t walked, broken;
-} walk_bench;
+static ff_status walk_one(walk_bench *bench, const ff_course *course, ff_error *error)
+{
+    walk_row row = {.course = course};
+    ff_status status = walk_course(bench, &row, error);
+    if (status == FF_OK) {
+        print_row(&row, &bench->figure);
+        fflush(stdout);
+        json_array_append_new(bench->rows, row_json(&row, &bench->figure));
+        ++bench->walked;
+        bench->broken += broken(&row) != NULL;
+    }
+    ff_gait_meter_free(&row.total);
+    return status;
+}
+
+/* The pack's examples that somebody goes anywhere by, as courses. */
+static const ff_course *example_courses(walk_bench *bench, uint32_t *count)
+{
+    const ff_pack *pack = bench->pack;
+    *count = 0;
+    bench->examples = ff_calloc(pack->example_count, sizeof *bench->examples);
+    for (uint32_t i = 0; bench->examples && i < pack->example_count; ++i) {
+        const ff_pack_example *example = &pack->examples[i];
+        if (example->flags & FF_EXAMPLE_IDLE) continue;
+        bench->examples[(*count)++] = (ff_course){
+            .name = ff_pack_string(pack, example->name),
+            .kind = FF_COURSE_STEADY,
+            .rates = {(double)example->v_forward, (double)example->v_left, (double)example->turn_rate},
+            .walkers = 1};
+    }
+    return bench->examples;
+}
 
 static ff_status walk_all(walk_bench *bench, ff_error *error)
 {
     uint32_t count;
-    const ff_course *courses = ff_courses(&count);
     const char *wanted = bench->options->course;
+    const ff_course *courses = bench->options->examples ? example_courses(bench, &count) : ff_courses(&count);
+    if (!courses) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the courses");
     ff_status status = FF_OK;
     print_header();
-    for (uint32_t i = 0; i < count && status == FF_OK; ++i) {
-        if (wanted && !strstr(courses[i].name, wanted)) continue;
-        walk_row row = {.course = &courses[i]};
-        status = walk_course(bench->options, bench->pack, &bench->standard, &row, error);
-        if (status == FF_OK) {
-            print_row(&row, &bench->figure);
-            fflush(stdout);
-            json_array_append_new(bench->rows, row_json(&row, &bench->figure));
-            ++bench->walked;
-            bench->broken += broken(&row) != NULL;
-        }
-        ff_gait_meter_free(&row.total);
-    }
+    for (uint32_t i = 0; i < count && status == FF_OK; ++i)
+        if (!wanted || strstr(courses[i].name, wanted)) status = walk_one(bench, &courses[i], error);
     if (status == FF_OK && bench->walked == 0)
         status = ff_fail(error, FF_ERR_ARGUMENT, "no course is called '%s'", wanted);
     return status;
 }
 
-static int run_walk(const walk_options *options)
+static int run_walk(const walk_options *options, ff_synthesis synthesis)
 {
     ff_error error = {0};
-    walk_bench bench = {.options = options, .rows = json_array()};
+    walk_bench bench = {.options = options, .synthesis = synthesis, .rows = json_array()};
     ff_status status = ff_pack_open(options->pack, &bench.pack, &error);
     if (status == FF_OK) status = ff_figure_from_pack(bench.pack, &bench.figure, &error);
     if (status == FF_OK)
         status = ff_gait_standard_make(bench.pack, &bench.figure, options->step, &bench.standard, &error);
+    if (status == FF_OK && options->out) status = ff_folder_create(options->out, &error);
     if (status == FF_OK) status = walk_all(&bench, &error);
     if (status == FF_OK && options->json) {
-        json_t *all = json_pack("{s:s, s:f, s:f, s:O}", "bench", "walk", "seconds", options->seconds, "dt",
-                                options->step, "rows", bench.rows);
+        json_t *all =
+            json_pack("{s:s, s:s, s:f, s:f, s:O}", "bench", "walk", "synthesis", ff_synthesis_name(synthesis),
+                      "seconds", options->seconds, "dt", options->step, "rows", bench.rows);
         status = ff_bench_write_json(options->json, all, &error);
     }
     json_decref(bench.rows);
+    free(bench.examples);
     ff_pack_close(bench.pack);
     if (status != FF_OK) return ff_command_fail(PROGRAM, &error);
     if (options->check && bench.broken > 0) {
@@ -200,13 +280,16 @@ static int run_walk(const walk_options *options)
 
 int ff_bench_walk_main(int argc, char **argv)
 {
-    walk_options given = {.seconds = 60.0, .step = 1.0 / 60.0, .seed = 1};
+    walk_options given = {.synthesis = "blending", .seconds = 60.0, .step = 1.0 / 60.0, .seed = 1};
     ff_option options[] = {
         {.name = "--pack", .alias = "-p", .value_name = "FILE", .help = "motion pack", .text = &given.pack},
         {.name = "--course",
          .value_name = "NAME",
          .help = "only courses with this in their name",
          .text = &given.course},
+        {.name = "--examples",
+         .help = "walk the pack's examples instead, one by one",
+         .flag = &given.examples},
         {.name = "--synthesis",
          .value_name = "NAME",
          .help = "blending (default), semi-procedural or hybrid",
@@ -230,6 +313,11 @@ int ff_bench_walk_main(int argc, char **argv)
          .low = 0,
          .high = 1e9},
         {.name = "--check", .help = "fail when a course breaks a bar", .flag = &given.check},
+        {.name = "--out",
+         .alias = "-o",
+         .value_name = "FOLDER",
+         .help = "where a film of each course goes, as pictures; made if missing",
+         .text = &given.out},
         {.name = "--json", .value_name = "FILE", .help = "the table as JSON", .text = &given.json},
         {0}};
     const ff_command command = {.program = PROGRAM,
@@ -241,10 +329,10 @@ int ff_bench_walk_main(int argc, char **argv)
     int status = ff_command_parse(&command, argc, argv, &operands);
     if (status >= 0) return status;
     if (!given.pack) return ff_command_misuse(&command, "--pack FILE is missing");
-    given.way = ff_synthesis_named(given.synthesis ? given.synthesis : "blending");
-    if (given.way == FF_SYNTHESIS_CROWD)
+    ff_synthesis synthesis = ff_synthesis_named(given.synthesis);
+    if (synthesis == FF_SYNTHESIS_CROWD)
         return ff_command_misuse(&command,
                                  "--synthesis is '%.40s'; it can be blending, semi-procedural or hybrid",
                                  given.synthesis);
-    return run_walk(&given);
+    return run_walk(&given, synthesis);
 }

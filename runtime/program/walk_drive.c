@@ -10,8 +10,9 @@
 
 #define SPEED_UP 2.0 /* m/s2 and rad/s2 of given rates (gait facts: starts peak at 1.5 to 2.4 m/s2) */
 #define TURN_UP 4.0
+#define RUN 2.0    /* m/s, that nobody walks at */
+#define CHANGE 1.3 /* s between changes, on average */
 
-/* At 2.0 m/s there is no walk left in the packs: rates are held to what they have. */
 static const ff_course courses[] = {
     {"straight 0.4", FF_COURSE_STEADY, {0.4, 0.0, 0.0}, 0.0, 2, 0.0},
     {"straight 0.6", FF_COURSE_STEADY, {0.6, 0.0, 0.0}, 0.0, 2, 0.0},
@@ -21,7 +22,6 @@ static const ff_course courses[] = {
     {"straight 1.4", FF_COURSE_STEADY, {1.4, 0.0, 0.0}, 0.0, 2, 0.0},
     {"straight 1.6", FF_COURSE_STEADY, {1.6, 0.0, 0.0}, 0.0, 2, 0.0},
     {"straight 1.8", FF_COURSE_STEADY, {1.8, 0.0, 0.0}, 0.0, 2, 0.0},
-    {"straight 2.0", FF_COURSE_STEADY, {2.0, 0.0, 0.0}, 0.0, 2, 0.0},
     {"curve", FF_COURSE_STEADY, {1.2, 0.0, 0.5}, 0.0, 2, 0.0},
     {"tight curve", FF_COURSE_STEADY, {0.7, 0.0, -1.2}, 0.0, 2, 0.0},
     {"turning slowly", FF_COURSE_STEADY, {0.0, 0.0, 0.7}, 0.0, 2, 0.0},
@@ -40,14 +40,14 @@ static const ff_course courses[] = {
     {"dodging", FF_COURSE_WAVES, {0.8, 0.25, 0.9}, 3.0, 2, 0.0},
     {"commands", FF_COURSE_COMMANDS, {1.8, 0.6, 0.0}, 2.0, 2, 0.0},
     {"hasty commands", FF_COURSE_COMMANDS, {1.8, 0.6, 0.0}, 0.7, 2, 0.0},
+    {"goals", FF_COURSE_GOALS, {2.0, 0.0, 0.0}, 8.0, 2, 12.0},
+    {"crowd", FF_COURSE_GOALS, {1.6, 0.0, 0.0}, 8.0, 24, 8.0},
     {"run 2.4", FF_COURSE_STEADY, {2.4, 0.0, 0.0}, 0.0, 2, 0.0},
     {"run 3.0", FF_COURSE_STEADY, {3.0, 0.0, 0.0}, 0.0, 2, 0.0},
     {"run a curve", FF_COURSE_STEADY, {2.6, 0.0, 0.5}, 0.0, 2, 0.0},
     {"run, stops", FF_COURSE_STOPS, {2.8, 0.0, 0.0}, 6.1, 2, 0.0},
     {"run, walk", FF_COURSE_WAVES, {2.0, 0.0, 0.4}, 9.0, 2, 0.0},
     {"running goals", FF_COURSE_GOALS, {3.2, 0.0, 0.0}, 8.0, 2, 24.0},
-    {"goals", FF_COURSE_GOALS, {2.0, 0.0, 0.0}, 8.0, 2, 12.0},
-    {"crowd", FF_COURSE_GOALS, {1.6, 0.0, 0.0}, 8.0, 24, 8.0},
 };
 
 const ff_course *ff_courses(uint32_t *count)
@@ -60,14 +60,14 @@ const ff_course *ff_courses(uint32_t *count)
 
 typedef struct walker {
     const ff_course *course;
+    const ff_walk_def *def;
     const ff_blend_space *space;
     ff_gait *gait;
     ff_body body;
     ff_random random;
     ff_vec2 command; /* m/s, of a body */
     double facing, until;
-    ff_synthesis synthesis;
-    double change; /* s, when it changes */
+    double change; /* s, when the way of moving changes */
     bool control;
 } walker;
 
@@ -104,13 +104,10 @@ static ff_rates clamp_to_gait(const void *context, ff_rates target)
     return ff_gait_clamp(w->space, w->gait, target);
 }
 
-#define RUN 2.0    /* m/s, that nobody walks at */
-#define CHANGE 1.3 /* s between changes, on average */
-
 /* Which way to move: of a hybrid walker now this, now that; whoever is asked for more than a walk runs. */
 static void choose_way(walker *w, double time, double speed)
 {
-    if (w->synthesis == FF_SYNTHESIS_HYBRID && time >= w->change) {
+    if (w->def->synthesis == FF_SYNTHESIS_HYBRID && time >= w->change) {
         w->change = time + CHANGE * ff_random_range(&w->random, 0.4, 1.6);
         w->control = !w->control;
     }
@@ -118,16 +115,16 @@ static void choose_way(walker *w, double time, double speed)
     ff_gait_want(w->space, w->gait, speed > RUN ? FF_RUNNING : way, false);
 }
 
-/* Rates change no faster than people's, and are held to what the way of moving can do. */
+/* Rates change no faster than people's, and are held to what the examples can do. */
 static ff_rates follow_rates(walker *w, double time, double step)
 {
     ff_rates asked = wanted_rates(w->course, time);
     choose_way(w, time, asked.forward);
-    ff_rates wanted = ff_gait_clamp(w->space, w->gait, asked), now = w->body.rates;
+    ff_rates wanted = clamp_to_gait(w, asked), now = w->body.rates;
     now.forward = towards(now.forward, wanted.forward, SPEED_UP * step);
     now.left = towards(now.left, wanted.left, SPEED_UP * step);
     now.turn = towards(now.turn, wanted.turn, TURN_UP * step);
-    now = ff_gait_clamp(w->space, w->gait, now);
+    now = clamp_to_gait(w, now);
     ff_vec2 ahead = ff_fwd2(w->body.heading + 0.5 * now.turn * step);
     w->body.position = ff_madd2(w->body.position, ff_from_frame2(ahead, ff_v2(now.forward, now.left)), step);
     w->body.heading = ff_wrap(w->body.heading + now.turn * step);
@@ -169,10 +166,10 @@ static ff_status show(const walker *w, uint32_t index, ff_vec2 velocity, ff_walk
     return visit(context, &pose, error);
 }
 
-static ff_status walk_one(walker *w, uint32_t index, double seconds, double step, ff_walk_visit *visit,
-                          void *context, ff_error *error)
+static ff_status walk_one(walker *w, uint32_t index, ff_walk_visit *visit, void *context, ff_error *error)
 {
-    uint64_t count = (uint64_t)(seconds / step + 0.5);
+    double step = w->def->step;
+    uint64_t count = (uint64_t)(w->def->seconds / step + 0.5);
     ff_gait_init(w->space, w->gait, w->body.position, w->body.heading, ff_random_next(&w->random));
     ff_status status = show(w, index, ff_v2(0.0, 0.0), visit, context, error);
     for (uint64_t k = 0; k < count && status == FF_OK; ++k) {
@@ -187,9 +184,8 @@ static ff_status walk_one(walker *w, uint32_t index, double seconds, double step
     return status;
 }
 
-static ff_status walk_each(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis,
-                           double seconds, double step, uint64_t seed, ff_walk_visit *visit, void *context,
-                           ff_error *error)
+static ff_status walk_each(const ff_pack *pack, const ff_course *course, const ff_walk_def *def,
+                           ff_walk_visit *visit, void *context, ff_error *error)
 {
     ff_blend_space *space;
     ff_status status = ff_blend_space_create(pack, &space, error);
@@ -198,12 +194,12 @@ static ff_status walk_each(const ff_pack *pack, const ff_course *course, ff_synt
     if (!gait) status = ff_fail(error, FF_ERR_NO_MEMORY, "no memory for a walker");
     for (uint32_t i = 0; i < course->walkers && status == FF_OK; ++i) {
         walker w = {.course = course,
+                    .def = def,
                     .space = space,
                     .gait = gait,
-                    .random = {seed, i, 0},
-                    .synthesis = synthesis,
-                    .control = synthesis == FF_SYNTHESIS_SEMI_PROCEDURAL};
-        status = walk_one(&w, i, seconds, step, visit, context, error);
+                    .random = {def->seed, i, 0},
+                    .control = def->synthesis == FF_SYNTHESIS_SEMI_PROCEDURAL};
+        status = walk_one(&w, i, visit, context, error);
     }
     free(gait);
     ff_blend_space_destroy(space);
@@ -250,26 +246,25 @@ static ff_status populate(ff_crowd *crowd, const ff_course *course, ff_random *r
     return status;
 }
 
-static ff_status walk_crowd(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis,
-                            double seconds, double step, uint64_t seed, ff_walk_visit *visit, void *context,
-                            ff_error *error)
+static ff_status walk_crowd(const ff_pack *pack, const ff_course *course, const ff_walk_def *walk,
+                            ff_walk_visit *visit, void *context, ff_error *error)
 {
     ff_crowd *crowd;
     ff_crowd_def def = ff_crowd_def_default();
     def.max_agents = course->walkers;
-    def.step = step;
-    def.seed = seed;
-    def.synthesis = synthesis;
-    ff_random random = {seed, 0, 0};
+    def.step = walk->step;
+    def.seed = walk->seed;
+    def.synthesis = walk->synthesis;
+    ff_random random = {walk->seed, 0, 0};
     ff_agent *agents = ff_calloc(course->walkers, sizeof *agents);
     if (!agents) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %u walkers", course->walkers);
     ff_status status = ff_crowd_create(pack, &def, &crowd, error);
     if (status == FF_OK) status = populate(crowd, course, &random, agents, error);
     if (status == FF_OK) status = show_crowd(crowd, agents, course->walkers, visit, context, error);
-    uint64_t count = (uint64_t)(seconds / step + 0.5);
+    uint64_t count = (uint64_t)(walk->seconds / walk->step + 0.5);
     for (uint64_t k = 0; k < count && status == FF_OK; ++k) {
         for (uint32_t i = 0; i < course->walkers && status == FF_OK; ++i)
-            if (ff_random_unit(&random) < step / course->period)
+            if (ff_random_unit(&random) < walk->step / course->period)
                 status = ff_crowd_set_goal(crowd, agents[i], somewhere(course, &random), error);
         ff_crowd_step(crowd);
         if (status == FF_OK) status = show_crowd(crowd, agents, course->walkers, visit, context, error);
@@ -279,10 +274,9 @@ static ff_status walk_crowd(const ff_pack *pack, const ff_course *course, ff_syn
     return status;
 }
 
-ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis, double seconds,
-                        double step, uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error)
+ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, const ff_walk_def *def,
+                        ff_walk_visit *visit, void *context, ff_error *error)
 {
-    return course->kind == FF_COURSE_GOALS
-               ? walk_crowd(pack, course, synthesis, seconds, step, seed, visit, context, error)
-               : walk_each(pack, course, synthesis, seconds, step, seed, visit, context, error);
+    return course->kind == FF_COURSE_GOALS ? walk_crowd(pack, course, def, visit, context, error)
+                                           : walk_each(pack, course, def, visit, context, error);
 }

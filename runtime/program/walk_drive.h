@@ -35,9 +35,16 @@ typedef struct ff_walk_pose {
 
 typedef ff_status ff_walk_visit(void *context, const ff_walk_pose *pose, ff_error *error);
 
-/* Walk a course for so many seconds by a way of moving, of which hybrid here means: changing every second or so, where there
- * is no crowd that calls for it. With everybody's first pose and the pose after each step shown to visit. */
-ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, ff_synthesis synthesis, double seconds,
-                        double step, uint64_t seed, ff_walk_visit *visit, void *context, ff_error *error);
+typedef struct ff_walk_def {
+    double seconds, step;
+    uint64_t seed;
+    /* FF_SYNTHESIS_HYBRID: between blending and the semi-procedural clip it changes in a crowd when it matters, else at
+     * random. */
+    ff_synthesis synthesis;
+} ff_walk_def;
+
+/* Walk a course, with everybody's first pose and the pose after each step shown to visit. */
+ff_status ff_walk_drive(const ff_pack *pack, const ff_course *course, const ff_walk_def *def,
+                        ff_walk_visit *visit, void *context, ff_error *error);
 
 #endif
