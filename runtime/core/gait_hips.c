@@ -4,8 +4,10 @@
 
 #define SWAY_AHEAD 0.004 /* m, of standing hips */
 #define SWAY_ASIDE 0.008
-#define RUN_REACH 0.975 /* of the leg: who runs pushes off with a knee bent by 18 to 26 degrees (gait facts) */
-#define MOST_DROP 0.12   /* m */
+#define RUN_RELAX 0.03 /* m/s */
+#define RUN_REACH                                                                                            \
+    0.975              /* of the leg: who runs pushes off with a knee bent by 18 to 26 degrees (gait facts) */
+#define MOST_DROP 0.12 /* m */
 #define LANDING_SEEN 0.5 /* of the swing, from where on hips are lowered for its end */
 #define DROP_FREQUENCY                                                                                       \
     14.0 /* rad/s, of the critically damped follower (about 0.2 s to settle; study, section 4.5) */
@@ -95,6 +97,9 @@ void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cur
         wanted = ff_max(wanted, lack_at_landing(body, gait, foot, hip, heading, reach));
     }
     wanted = ff_min(wanted, MOST_DROP);
+    /* A runner's legs are stretched for a moment in each step, too short for the hips to follow: they stay low. */
+    gait->hips_peak = gait->blend.way == FF_RUNNING ? ff_max(wanted, gait->hips_peak - RUN_RELAX * dt) : 0.0;
+    wanted = ff_max(wanted, gait->hips_peak);
     /* Exact step of the critically damped oscillator, so that it is stable for any dt. */
     double decay = ff_exp(-DROP_FREQUENCY * dt), away = gait->hips_drop - wanted;
     double push = (gait->hips_speed + DROP_FREQUENCY * away) * dt;

@@ -266,6 +266,13 @@ void ff_blend_lock(const ff_blend_space *space, const ff_blend *blend, int foot,
                    double *length)
 {
     *start = *length = 0.0;
+    if (blend->way == FF_SEMI_PROCEDURAL) {
+        const double *hold = space->model.hold;
+        *start = 2.0 * foot + ff_clip_phase(blend, hold[0] * blend->stance);
+        *length =
+            ff_clip_phase(blend, hold[1] * blend->stance) - ff_clip_phase(blend, hold[0] * blend->stance);
+        return;
+    }
     for (int i = 0; i < FF_BLEND_MAX; ++i) {
         if (blend->vertex[i] < 0) continue;
         *start += blend->weight[i] * space->vertices[blend->vertex[i]].lock_start[foot];

@@ -45,6 +45,7 @@ struct ff_gait {
     double stand;      /* 0 walking to 1 standing: share of the idle pose, before smoothing */
     double idle_time;  /* s, in the idle example's cycle */
     double hips_drop;  /* m, below the blended height, so that both legs reach */
+    double hips_peak;  /* m, of who runs: the most that was needed of it lately */
     double hips_speed; /* m/s, of hips_drop */
     ff_gait_style style;
     ff_pose_offset offset; /* what is left of the last switch */
