@@ -56,6 +56,7 @@ typedef struct ff_blend_region {
 typedef struct ff_clip_model {
     ff_gait_model clip;           /* clip.gait NULL: the pack has none */
     int32_t vertex;               /* whose trunk and arms it has */
+    double fastest;               /* m/s ahead */
     double hold[2];               /* shares of the stance between which a ball stands still */
     ff_quat mean[FF_JOINT_HIP_L]; /* of those over the cycle: what is left of them in the smallest steps */
     /* Mean height of the hips by rates, so that the longest reach of a standing leg is FF_LEG_REACH: steps that are

@@ -151,7 +151,7 @@ static void make_clip_hull(ff_crowd *crowd)
         double part = (double)i / (back ? FF_HULL_MAX : FF_HULL_MAX - 1),
                angle = (back ? FF_TAU : FF_PI) * part;
         ff_vec2 at = ff_fwd2(angle - 0.5 * FF_PI);
-        double ahead = at.a < 0.0 ? FF_MODEL_BACKWARD : FF_MODEL_FORWARD;
+        double ahead = at.a < 0.0 ? FF_MODEL_BACKWARD : crowd->space->model.fastest;
         points[i] = (ff_pack_point2){(float)(ahead * at.a), (float)(FF_MODEL_SIDEWAYS * at.b)};
     }
     ff_hull_make(points, FF_HULL_MAX, &crowd->clip_hull);
@@ -169,9 +169,9 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     crowd->def = *def;
     if (def->navigation == FF_NAVIGATION_CROWD) crowd->def.navigation = FF_NAVIGATION_MCN;
     if (def->synthesis == FF_SYNTHESIS_CROWD) crowd->def.synthesis = ff_crowd_def_default().synthesis;
-    make_clip_hull(crowd);
     status = make_hull(crowd, error);
     if (status == FF_OK) status = ff_blend_space_create(pack, &crowd->space, error);
+    if (status == FF_OK) make_clip_hull(crowd);
     if (status == FF_OK && def->behaviour) {
         status = ff_behaviour_create(def->behaviour, &crowd->behaviour, error);
         crowd->def.behaviour = crowd->behaviour ? &crowd->behaviour->def : NULL;

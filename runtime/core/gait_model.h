@@ -15,7 +15,7 @@ typedef struct ff_gait_model {
     const ff_pack_gait_path *path; /* [FF_GAIT_SAMPLES] */
 } ff_gait_model;
 
-/* Rates within which the clip looks right (study, section 5): forward, backward, sideways m/s, turn rad/s. */
+/* Rates within which a clip looks right (study, section 5): forward, backward, sideways m/s, turn rad/s. */
 #define FF_MODEL_FORWARD 1.8
 #define FF_MODEL_BACKWARD 1.5
 #define FF_MODEL_SIDEWAYS 0.7

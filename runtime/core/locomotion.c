@@ -10,7 +10,11 @@
 #define HEIGHT_PHASES 16
 #define STANCE_LEAST 0.52 /* of the clip's cycle: both feet must be down for a while, as keys have to rise */
 #define STANCE_MOST 0.9
-#define ROLL 0.01 /* m */
+#define MOST_STRETCH 1.4 /* of the clip's own speed: further on its steps are lunges */
+#define ROLL 0.01        /* m */
+#define EASY 1.1         /* m/s: up to here the longest reach is FF_LEG_REACH ... */
+#define HASTY_REACH                                                                                          \
+    0.985 /* ... and this at the most: who walks fast straightens the knee too quickly to stop there */
 
 bool ff_locomotion_available(const ff_blend_space *space, ff_locomotion way)
 {
@@ -21,9 +25,9 @@ bool ff_locomotion_available(const ff_blend_space *space, ff_locomotion way)
 /* ------------------------------------------------------------------------------------ the semi-procedural clip */
 
 /* Within an ellipse of velocities, whose direction is kept: that is what this motion is for. */
-static ff_rates clamp_model(ff_rates target)
+static ff_rates clamp_model(const ff_clip_model *model, ff_rates target)
 {
-    double f = target.forward / (target.forward < 0.0 ? FF_MODEL_BACKWARD : FF_MODEL_FORWARD);
+    double f = target.forward / (target.forward < 0.0 ? FF_MODEL_BACKWARD : model->fastest);
     double l = target.left / FF_MODEL_SIDEWAYS;
     double far = ff_max(1.0, sqrt(f * f + l * l));
     ff_rates out = {target.forward / far, target.left / far, target.turn};
@@ -82,7 +86,7 @@ static void set_clip(const ff_clip_model *model, ff_rates rates, ff_blend *out)
 }
 
 /* How high the hips may be for this foot, if it stands, to be within reach. */
-static double most_height(const ff_blend_space *space, const ff_cursor *cursor, int foot)
+static double most_height(const ff_blend_space *space, const ff_cursor *cursor, int foot, double reach)
 {
     const ff_body_frame *body = &space->body;
     ff_foot_sample at = ff_sample_foot(space, cursor, foot);
@@ -92,19 +96,20 @@ static double most_height(const ff_blend_space *space, const ff_cursor *cursor, 
                           ff_quat_rotate(turn, body->offset[FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE]));
     ff_foothold ball = {at.forward, at.left, at.height, at.yaw};
     ff_vec3 ankle = ff_gait_ankle(body, foot, ball, ff_gait_foot_rotation(at.yaw, at.pitch));
-    return -ff_gait_lack(hip, ankle, FF_LEG_REACH * (body->thigh[foot] + body->shank[foot]));
+    return -ff_gait_lack(hip, ankle, reach * (body->thigh[foot] + body->shank[foot]));
 }
 
 static double find_height(const ff_blend_space *space, ff_rates rates)
 {
     ff_blend clip;
-    double least = 1e9;
+    double least = 1e9, haste = ff_smooth((fabs(rates.forward) - EASY) / (space->model.fastest - EASY));
+    double reach = ff_lerp(FF_LEG_REACH, HASTY_REACH, haste);
     set_clip(&space->model, rates, &clip);
     for (int foot = 0; foot < 2; ++foot)
         for (int k = 0; k <= HEIGHT_PHASES; ++k) {
             double fraction = clip.stance * k / HEIGHT_PHASES + 0.5 * foot;
             ff_cursor cursor = ff_cursor_of_clip(space, &clip, fraction - floor(fraction));
-            least = ff_min(least, most_height(space, &cursor, foot));
+            least = ff_min(least, most_height(space, &cursor, foot, reach));
         }
     return least;
 }
@@ -156,6 +161,7 @@ void ff_clip_model_make(ff_blend_space *space)
     model->vertex = clip_vertex(space, pack->gait);
     if (model->vertex < 0) return;
     model->clip = (ff_gait_model){pack->gait, pack->gait_path};
+    model->fastest = ff_min(FF_MODEL_FORWARD, MOST_STRETCH * (double)pack->gait->speed);
     find_hold(space, model);
     for (int joint = 0; joint < FF_JOINT_HIP_L; ++joint)
         model->mean[joint] = mean_rotation(space, model->vertex, joint);
@@ -191,7 +197,7 @@ static ff_rates clamp_run(const ff_blend_space *space, ff_rates target)
 
 ff_rates ff_locomotion_clamp(const ff_blend_space *space, ff_locomotion way, ff_rates target)
 {
-    if (way == FF_SEMI_PROCEDURAL) return clamp_model(target);
+    if (way == FF_SEMI_PROCEDURAL) return clamp_model(&space->model, target);
     if (way == FF_RUNNING) return clamp_run(space, target);
     return ff_blend_clamp_turn(space, target);
 }
@@ -202,7 +208,7 @@ void ff_locomotion_find(const ff_blend_space *space, ff_locomotion way, ff_rates
         ff_blend_find_in(space, way == FF_RUNNING ? FF_GAIT_RUN : FF_GAIT_WALK, target, out);
         return;
     }
-    ff_rates rates = clamp_model(target);
+    ff_rates rates = clamp_model(&space->model, target);
     set_clip(&space->model, rates, out);
     out->hips = height_at(&space->model, rates);
 }
