@@ -79,21 +79,26 @@ static void unit(float *x, float *y, float *z, float *w)
     *x *= r, *y *= r, *z *= r, *w *= r;
 }
 
-void ff_pose_blend_plain(const ff_pose_store *store, const ff_pose_mix *mix, float *out)
+/* Eight lanes at a time of one part: loops of a fixed length, which compilers turn into what their machine has. */
+static void sum_eight(const ff_pose_store *store, const ff_pose_mix *mix, uint32_t at, float *restrict out)
 {
-    uint32_t lanes = store->lanes, all = 4 * lanes;
-    int32_t sum[4 * FF_POSE_LANES_MAX];
-    for (uint32_t i = 0; i < all; ++i)
-        sum[i] = 0;
+    int32_t sum[8] = {0};
     for (uint32_t p = 0; p < mix->count; ++p) {
-        const int16_t *k0 = ff_pose_frame(store, mix->pair[p].frame[0]);
-        const int16_t *k1 = ff_pose_frame(store, mix->pair[p].frame[1]);
-        int32_t w0 = mix->pair[p].weight[0], w1 = mix->pair[p].weight[1];
-        for (uint32_t i = 0; i < all; ++i)
+        const int16_t *restrict k0 = ff_pose_frame(store, mix->pair[p].frame[0]) + at;
+        const int16_t *restrict k1 = ff_pose_frame(store, mix->pair[p].frame[1]) + at;
+        int16_t w0 = mix->pair[p].weight[0], w1 = mix->pair[p].weight[1];
+        for (int i = 0; i < 8; ++i)
             sum[i] += w0 * k0[i] + w1 * k1[i];
     }
-    for (uint32_t i = 0; i < all; ++i)
+    for (int i = 0; i < 8; ++i)
         out[i] = (float)sum[i];
+}
+
+void ff_pose_blend_plain(const ff_pose_store *store, const ff_pose_mix *mix, float *out)
+{
+    uint32_t lanes = store->lanes;
+    for (uint32_t at = 0; at < 4 * lanes; at += 8)
+        sum_eight(store, mix, at, out + at);
     for (uint32_t j = 0; j < lanes; ++j)
         unit(out + j, out + lanes + j, out + 2 * lanes + j, out + 3 * lanes + j);
 }

@@ -16,7 +16,7 @@ void ff_pose_lanes(const ff_quat *rotations, uint32_t joint_count, uint32_t lane
 
 /* -------------------------------------------------------------------------------------------------- in plain C */
 
-static ff_matrix local_plain(const ff_pose_tree *tree, const float *rotations, uint32_t j)
+static void local_plain(const ff_pose_tree *tree, const float *rotations, uint32_t j, ff_matrix *out)
 {
     uint32_t lanes = tree->lanes;
     float x = rotations[j], y = rotations[lanes + j], z = rotations[2 * lanes + j],
@@ -25,31 +25,34 @@ static ff_matrix local_plain(const ff_pose_tree *tree, const float *rotations, u
     float xx = x * x2, yy = y * y2, zz = z * z2, xy = x * y2, xz = x * z2, yz = y * z2, wx = w * x2,
           wy = w * y2, wz = w * z2;
     const float *offset = tree->offsets + j;
-    return (ff_matrix){{{1.0f - (yy + zz), xy - wz, xz + wy, offset[0]},
+    *out = (ff_matrix){{{1.0f - (yy + zz), xy - wz, xz + wy, offset[0]},
                         {xy + wz, 1.0f - (xx + zz), yz - wx, offset[lanes]},
                         {xz - wy, yz + wx, 1.0f - (xx + yy), offset[2 * lanes]}}};
 }
 
-static void multiply_plain(const ff_matrix *parent, const ff_matrix *local, ff_matrix *out)
+static void multiply_plain(const ff_matrix *restrict parent, const ff_matrix *restrict local,
+                           ff_matrix *restrict out)
 {
     for (int i = 0; i < 3; ++i) {
         const float *p = parent->row[i];
         for (int k = 0; k < 4; ++k)
-            out->row[i][k] = (p[0] * local->row[0][k] + p[1] * local->row[1][k]) +
-                             (p[2] * local->row[2][k] + (k == 3 ? p[3] : 0.0f));
+            out->row[i][k] = (p[0] * local->row[0][k] + p[1] * local->row[1][k]) + p[2] * local->row[2][k];
+        out->row[i][3] += p[3];
     }
 }
 
+/* All local matrices first: read back as whole rows at once, they would stall on the parts just written. */
 void ff_pose_matrices_plain(const ff_pose_tree *tree, const float *rotations, const float hips[3],
                             ff_matrix *out)
 {
-    out[0] = local_plain(tree, rotations, 0);
+    ff_matrix local[FF_POSE_LANES_MAX];
+    local_plain(tree, rotations, 0, &out[0]);
+    for (uint32_t j = 1; j < tree->joint_count; ++j)
+        local_plain(tree, rotations, j, &local[j]);
     for (int i = 0; i < 3; ++i)
         out[0].row[i][3] = hips[i];
-    for (uint32_t j = 1; j < tree->joint_count; ++j) {
-        ff_matrix local = local_plain(tree, rotations, j);
-        multiply_plain(&out[tree->parents[j]], &local, &out[j]);
-    }
+    for (uint32_t j = 1; j < tree->joint_count; ++j)
+        multiply_plain(&out[tree->parents[j]], &local[j], &out[j]);
 }
 
 /* ----------------------------------------------------------------------------------------------------- with SSE2 */

@@ -11,6 +11,8 @@ static const ff_subcommand benches[] = {
      ff_bench_table1_main},
     {"fig7", "everyone to the other side of a circle, by MCN, ORCA, SF and Detour (FbCrowd, Figure 7)",
      ff_bench_fig7_main},
+    {"synthesis", "what a pose costs: four motions blended, matrices of all joints, both legs' IK",
+     ff_bench_synthesis_main},
     {"walk", "how people walk: planted feet, knees, joints, on courses of every kind", ff_bench_walk_main},
     {0},
 };

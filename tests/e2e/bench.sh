@@ -25,6 +25,13 @@ table1_compares_the_methods() {
         [ "$(wc -l <"$work/table1/table1.csv")" -eq 11 ] && [ -s "$work/table1/table1.png" ] &&
         has "$work/table1.json" '"name": "x2"' '"mcn"' '"orca"' '"sf"' A_route A_raw deepest_m '"arrived": 30' last_s
 }
+synthesis_measures_poses_with_simd_and_without() {
+    run 0 "$crowd" bench synthesis --pack "$builtin" --characters 20 --repeats 2 --quiet --out "$work/synthesis" \
+        --json "$work/synthesis.json" && silent err || return 1
+    has "$work/out" "plain C" SIMD && cmp "$work/synthesis.json" "$work/synthesis/synthesis.json" &&
+        [ "$(wc -l <"$work/synthesis/synthesis.csv")" -eq 5 ] && [ -s "$work/synthesis/synthesis.png" ] &&
+        has "$work/synthesis.json" '"characters": 20' '"simd": true' '"simd": false' us_blend us_ik '"joints": 31'
+}
 mistakes_leave_with_2_and_name_the_way_on() {
     run 2 "$crowd" bench && run 2 "$crowd" bench fig77 && says err "fig7" &&
         run 2 "$crowd" bench table1 && says err "--pack" && run 2 "$crowd" bench fig7 && says err "--pack" &&
@@ -34,5 +41,6 @@ mistakes_leave_with_2_and_name_the_way_on() {
 
 test_that "fig7 writes its table, files and pictures" fig7_writes_table_files_and_pictures
 test_that "table1 compares the methods" table1_compares_the_methods
+test_that "synthesis measures poses with SIMD and without" synthesis_measures_poses_with_simd_and_without
 test_that "mistakes leave with 2 and name the way on" mistakes_leave_with_2_and_name_the_way_on
 finish

@@ -178,7 +178,8 @@ static inline ff_quat ff_quat_unit(ff_quat q)
 {
     double n = sqrt(ff_quat_dot(q, q));
     if (!(n > 1e-12)) return FF_QUAT_IDENTITY;
-    return (ff_quat){q.x / n, q.y / n, q.z / n, q.w / n};
+    double over = 1.0 / n;
+    return (ff_quat){q.x * over, q.y * over, q.z * over, q.w * over};
 }
 static inline ff_vec3 ff_quat_rotate(ff_quat q, ff_vec3 v)
 {
