@@ -43,10 +43,13 @@ static bool leaves(const ff_behave_view *view, double tolerance)
 static void look(ff_crowd *crowd, uint32_t slot)
 {
     ff_conduct *conduct = &crowd->conducts[slot];
-    const ff_traits *traits = &crowd->traits[slot];
+    ff_traits *traits = &crowd->traits[slot];
     crowd->firing[slot] = FF_NONE;
     if (conduct->state == FF_NONE) return;
     ff_behave_view view = view_of(crowd, slot);
+    /* One who shall stand does so where he comes to a stand: nobody walks back half a step. */
+    bool stops = crowd->behaviour->def.states[conduct->state].motion == FF_MOTION_STAND;
+    if (stops && crowd->minds[slot].standing == FF_WALKS) traits->goal = view.position;
     bool slow = view.speed < SLOW * traits->preferred_speed;
     bool there = ff_length2(ff_sub2(traits->goal, view.position)) <= traits->goal_tolerance;
     bool goes = crowd->minds[slot].standing == FF_WALKS && !there;

@@ -4,14 +4,13 @@
 #define FF_TEST_BEHAVE_FAIR_H
 
 #include "runtime/footfall.h"
-#include "tests/check.h"
 
 enum { FAIR_WALK, FAIR_LOOK, FAIR_WAIT, FAIR_GO, FAIR_STATES };
 enum { FAIR_BOOTHS = 4, FAIR_EXIT = FAIR_BOOTHS, FAIR_GOALS };
 enum { FAIR_VISITOR, FAIR_MACHINES };
 
-#define FAIR_LOOK_LEAST 2.0
-#define FAIR_LOOK_MOST 3.0
+#define FAIR_LOOK_LEAST 4.0
+#define FAIR_LOOK_MOST 5.0
 
 #define BOX(x, y, length, width)                                                                             \
     {                                                                                                        \
@@ -119,27 +118,6 @@ static inline ff_behaviour_def fair_behaviour(void)
                               1,
                               1,
                               0};
-}
-
-/* A crowd at the fair, with some who are there from the start. */
-static inline ff_crowd *fair_crowd(const ff_pack *pack, uint32_t threads, uint32_t there)
-{
-    ff_error error;
-    ff_crowd *crowd;
-    ff_behaviour_def behaviour = fair_behaviour();
-    ff_crowd_def def = ff_crowd_def_default();
-    def.max_agents = 24;
-    def.threads = threads;
-    def.behaviour = &behaviour;
-    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
-    for (uint32_t i = 0; i < there; ++i) {
-        ff_agent agent;
-        ff_agent_def one = ff_agent_def_default();
-        one.position = one.goal = ff_v2(-1.5 + 1.0 * (double)i, 0.0);
-        one.machine = FAIR_VISITOR;
-        FF_ASSERT_OK(ff_crowd_add_agent(crowd, &one, &agent, &error), error);
-    }
-    return crowd;
 }
 
 #endif

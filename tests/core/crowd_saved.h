@@ -2,16 +2,19 @@
 #ifndef FF_TEST_CROWD_SAVED_H
 #define FF_TEST_CROWD_SAVED_H
 
+#include "tests/core/behave_fair.h"
 #include "tests/core/walker_pack.h"
 
 #include "runtime/core/base/random.h"
 
-/* A crowd that has people of all methods, walls, free slots and some seconds behind it. */
+/* A crowd at the fair that has people of all methods, walls, free slots and some seconds behind it. */
 static inline ff_crowd *ff_saved_crowd(const ff_pack *pack)
 {
     ff_crowd_def def = ff_crowd_def_default();
     def.max_agents = 12;
     def.max_walls = 4;
+    ff_behaviour_def behaviour = fair_behaviour();
+    def.behaviour = &behaviour;
     ff_crowd *crowd;
     ff_agent agents[10];
     if (ff_crowd_create(pack, &def, &crowd, NULL) != FF_OK) abort();
@@ -22,12 +25,14 @@ static inline ff_crowd *ff_saved_crowd(const ff_pack *pack)
         agent.position = ff_scale2(ff_fwd2(FF_TAU * i / 10.0), 3.0);
         agent.goal = ff_scale2(agent.position, i == 3 ? 1.0 : -1.0);
         agent.heading = 0.3 * i;
+        if (i < 4) agent.machine = FAIR_VISITOR;
         if (i == 5) agent.navigation = FF_NAVIGATION_ORCA;
         if (i == 6) agent.navigation = FF_NAVIGATION_SF;
         if (ff_crowd_add_agent(crowd, &agent, &agents[i], NULL) != FF_OK) abort();
     }
     for (int i = 0; i < 45; ++i)
         ff_crowd_step(crowd);
+    ff_crowd_set_signal(crowd, 0, 1, NULL);
     ff_crowd_remove_agent(crowd, agents[2], NULL);
     ff_crowd_remove_agent(crowd, agents[7], NULL);
     return crowd;
