@@ -343,7 +343,14 @@ typedef struct ff_agent {
 typedef void ff_parallel_for(void *pool, uint32_t count, void (*function)(void *context, uint32_t index),
                              void *context);
 
-/* How agents find their way past each other. */
+/* How agents move. */
+typedef enum ff_planner {
+    FF_PLANNER_CROWD,     /* of an agent: as its crowd's definition says. Of a crowd: by velocity */
+    FF_PLANNER_VELOCITY,  /* navigation asks for velocities, the body follows, the gait fits (FbCrowd) */
+    FF_PLANNER_FOOTSTEPS, /* steps are planned ahead and played (footstep planning, Beacco et al. 2013) */
+} ff_planner;
+
+/* How agents find their way past each other who move by velocity. */
 typedef enum ff_navigation {
     FF_NAVIGATION_CROWD, /* of an agent: as its crowd's definition says. Of a crowd: MCN */
     FF_NAVIGATION_MCN,   /* motion-constrained navigation (FbCrowd, section 4) */
@@ -394,6 +401,29 @@ typedef struct ff_baseline_def {
         model_velocity; /* others see the body's rates instead of the displacement over a quarter of a second */
 } ff_baseline_def;
 
+/* How those plan who move by footsteps. */
+typedef struct ff_footsteps_def {
+    bool
+        mixed; /* there is memory for them (12 kB each) though the crowd's planner is velocity: agents may differ, or
+                        change; default off */
+    bool
+        paper; /* the paper's own formulation, to compare: no stop at the end of plans, no table, no time horizon,
+                        plain distance as heuristic; see runtime/README.md */
+    uint32_t nodes; /* expanded per plan, 1 to 20000; default 200 */
+    double seconds; /* wall clock per plan, on top; 0 (default): none, so that results do not depend on it */
+    uint32_t
+        plans; /* made per step, at most; 0 (default): 1.5 per second and agent of max_agents, at least 2 */
+    uint32_t actions;        /* of the pack, at most; 0 (default): 200 */
+    double expiry;           /* s, after which a plan is made anew; default 2 */
+    uint32_t expiry_actions; /* or after so many actions of it; default 3 */
+    double margin;           /* m, kept from others' bodies and obstacles; default 0.05 */
+    double proximity_cost;   /* J/(kg s) that being within 0.3 m of somebody counts for; default 0 */
+} ff_footsteps_def;
+
+/* A waypoint on the way to an agent's goal: true and *out, or false: straight to the goal. Called from any of the crowd's
+ * threads; must depend on its arguments alone. */
+typedef bool ff_waypoint(void *context, ff_agent agent, ff_vec2 position, ff_vec2 goal, ff_vec2 *out);
+
 typedef struct ff_crowd_def {
     uint32_t max_agents;      /* hard cap; all memory is taken at creation */
     uint32_t max_walls;       /* static segments */
@@ -409,7 +439,12 @@ typedef struct ff_crowd_def {
     ff_mcn_def mcn;
     ff_baseline_def baseline;
     const ff_behaviour_def *behaviour; /* copied at creation; NULL: none */
-    uint32_t cookie;                   /* set by ff_crowd_def_default(); leave it alone */
+    ff_planner planner;                /* of agents that do not name their own */
+    ff_footsteps_def footsteps;
+    uint32_t max_obstacles; /* default 64 */
+    ff_waypoint *waypoint;  /* or NULL; for those who move by footsteps */
+    void *waypoint_context;
+    uint32_t cookie; /* set by ff_crowd_def_default(); leave it alone */
 } ff_crowd_def;
 
 typedef struct ff_agent_def {
@@ -423,6 +458,7 @@ typedef struct ff_agent_def {
     ff_synthesis synthesis;
     uint32_t
         machine; /* of the crowd's behaviour, which then chooses goals; default FF_NONE: the caller does */
+    ff_planner planner;
     uint32_t cookie; /* set by ff_agent_def_default() */
 } ff_agent_def;
 
@@ -442,6 +478,55 @@ ff_status ff_crowd_set_facing(ff_crowd *crowd, ff_agent agent, ff_face face, ff_
 
 /* Make a signal show a phase (counted from 0) until it is told otherwise; FF_NONE: go by the clock again. */
 ff_status ff_crowd_set_signal(ff_crowd *crowd, uint32_t signal, uint32_t phase, ff_error *error);
+
+/* From now on the agent moves in this way; it changes over with the next foot that lands, or at once where it stands. To footsteps:
+ * when a plan is found that is free of everybody's. FF_ERR_UNSUPPORTED where the crowd has no memory for footsteps. */
+ff_status ff_crowd_set_planner(ff_crowd *crowd, ff_agent agent, ff_planner planner, ff_error *error);
+
+/* Points on the way to the goal, in order, at most FF_WAYPOINTS_MAX (copied). Those are left out behind which a later one is seen.
+ * For those who move by footsteps. */
+enum { FF_WAYPOINTS_MAX = 8 };
+ff_status ff_crowd_set_waypoints(ff_crowd *crowd, ff_agent agent, const ff_vec2 *points, uint32_t count,
+                                 ff_error *error);
+
+/* Things in the way. Who moves by footsteps sees them all; who moves by velocity sees those that do not move, as walls. */
+typedef enum ff_obstacle_kind {
+    FF_OBSTACLE_STATIC, /* fixed once the first step was taken */
+    FF_OBSTACLE_PATH,   /* moves on a path that everybody knows */
+    FF_OBSTACLE_FREE,   /* moved by the caller, who is not to be foreseen */
+} ff_obstacle_kind;
+
+typedef struct ff_obstacle_point {
+    double time; /* s from the path's start, rising */
+    ff_vec2 at;  /* m */
+} ff_obstacle_point;
+
+/* A box, capsule or disc with vertical sides, or rounded all over: a sphere, a lying capsule. */
+enum { FF_OBSTACLE_POINTS_MAX = 8 };
+typedef struct ff_obstacle_def {
+    ff_obstacle_kind kind;
+    ff_vec2 position;               /* m; added to the points of a path */
+    double heading;                 /* rad, of the length */
+    double half_length, half_width; /* m; a disc has neither, a capsule no width */
+    double radius;                  /* m, on top of both; default 0.1 */
+    double low, high;               /* m over the ground, radius of rounded ones included; default 0 to 2 */
+    bool round;                     /* above and below, too */
+    ff_obstacle_point path[FF_OBSTACLE_POINTS_MAX]; /* straight and even in between; waits at the last one */
+    uint32_t path_count;
+    bool cyclic;     /* the path begins again instead */
+    double start;    /* s, when it begins */
+    uint32_t cookie; /* set by ff_obstacle_def_default() */
+} ff_obstacle_def;
+ff_obstacle_def ff_obstacle_def_default(void);
+
+/* Adds one; *out numbers it from 0 on. */
+ff_status ff_crowd_add_obstacle(ff_crowd *crowd, const ff_obstacle_def *def, uint32_t *out, ff_error *error);
+/* Put one of kind FREE somewhere else. Its velocity is taken to be what it moves between two steps. */
+ff_status ff_crowd_move_obstacle(ff_crowd *crowd, uint32_t obstacle, ff_vec2 position, double heading,
+                                 ff_error *error);
+/* Where it is now, and how it is turned. */
+ff_status ff_crowd_obstacle_place(const ff_crowd *crowd, uint32_t obstacle, ff_vec2 *position,
+                                  double *heading, ff_error *error);
 
 /* A static wall from p to q, solid from both sides. Walls are fixed once the first step was taken. */
 ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *error);
@@ -487,6 +572,8 @@ typedef struct ff_agent_state {
     uint8_t planted[2]; /* left, right: the foot is locked to the ground */
     uint8_t way;        /* FF_WAY_*: what it moves by now */
     uint32_t number;    /* how many were added before: unlike slots, numbers are never used again */
+    uint8_t planner;    /* ff_planner, as it moves now */
+    uint8_t reserved[3];
 } ff_agent_state;
 
 /* State of a live agent. Fails with FF_ERR_ARGUMENT for a stale handle. */
@@ -518,6 +605,39 @@ typedef struct ff_crowd_counts {
     uint64_t added, spawned, left;
 } ff_crowd_counts;
 ff_crowd_counts ff_crowd_count(const ff_crowd *crowd);
+/* A footprint of an agent's plan. */
+typedef struct ff_planned_print {
+    ff_vec2 ball;  /* m */
+    double yaw;    /* rad, of the foot */
+    double time;   /* s: the foot stands there from then on, until its next print */
+    uint32_t foot; /* 0 left, 1 right */
+    uint32_t
+        action; /* the action that puts it there (footfall-pack inspect lists them); UINT32_MAX: it stands there already */
+} ff_planned_print;
+
+/* The plan an agent has made known, for drawing and debugging: first where its feet stand (or stood), then its steps. Writes at most
+ * capacity prints, *count is how many there are. None for those who move by velocity. */
+ff_status ff_crowd_agent_plan(const ff_crowd *crowd, ff_agent agent, ff_planned_print *out, uint32_t capacity,
+                              uint32_t *count, ff_error *error);
+
+/* Why plans are made (Beacco et al. 2013, 3.1), and what became of it, since the agent began to move by footsteps. */
+typedef enum ff_plan_event {
+    FF_EVENT_GOAL,     /* the goal, or the waypoint before it, has changed */
+    FF_EVENT_NEARBY,   /* somebody's new plan, or an obstacle on a path, is in the way of the agent's own */
+    FF_EVENT_SURPRISE, /* what nobody foresees is in the way: a moved obstacle, one who moves by velocity */
+    FF_EVENT_EXPIRY,   /* the plan is old, or nearly done */
+    FF_EVENT_PLAN_COUNT
+} ff_plan_event;
+typedef struct ff_plan_counts {
+    uint32_t events[FF_EVENT_PLAN_COUNT];
+    uint32_t searches, plans;     /* plans tried for, and made known */
+    uint32_t failed, conflicting; /* no plan found; found, but another's came first */
+    uint32_t reactions;           /* actions broken off */
+    uint32_t nodes;               /* expanded */
+    double without_plan; /* s: the plan was at its end and not a stand, or in conflict with another's */
+} ff_plan_counts;
+ff_status ff_crowd_agent_plan_counts(const ff_crowd *crowd, ff_agent agent, ff_plan_counts *out,
+                                     ff_error *error);
 
 /* Handles of all live agents in slot order. Writes at most capacity, returns how many there are. */
 uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity);
@@ -547,6 +667,7 @@ typedef struct ff_crowd_timings {
     double snapshot;   /* what everybody shows the others, and who is where */
     double neighbours; /* who is near whom */
     double navigation; /* which velocity to ask for */
+    double planning;   /* footsteps: events, plans */
     double bodies;     /* what bodies make of it: the root moves */
     double synthesis;  /* steps, weights and foot locks */
     double total;      /* of ff_crowd_step: the sum of these */

@@ -1,15 +1,19 @@
 /* Crowds: creation, agents, walls and questions. The step is in crowd_step.c. */
 #include "runtime/core/crowd_behave.h"
+#include "runtime/core/plan_solids.h"
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/random.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define CROWD_COOKIE 0x46464344u
 #define AGENT_COOKIE 0x46464144u
 #define AGENTS_MAX 1000000u
 #define WALLS_MAX 1000000u
+#define OBSTACLES_MAX 100000.0
+#define NODES_MAX 20000.0
 #define STEP_MIN 1e-5      /* s: below that speeds, which are differences over a step, are noise */
 #define STEP_MAX 0.25      /* s: longer than that, people walk past each other unseen */
 #define PLANE_MAX 1e6      /* m: millimetres must survive in a double many times over */
@@ -39,6 +43,9 @@ ff_crowd_def ff_crowd_def_default(void)
                                   .facing = FF_FACING_HALFWAY,
                                   .padding = 0.02,
                                   .prediction = 0.3},
+                          .planner = FF_PLANNER_VELOCITY,
+                          .footsteps = {.nodes = 200, .expiry = 2.0, .expiry_actions = 3, .margin = 0.05},
+                          .max_obstacles = 64,
                           .cookie = CROWD_COOKIE};
 }
 
@@ -89,6 +96,25 @@ static ff_status check_navigation_def(const ff_crowd_def *def, ff_error *error)
     return status;
 }
 
+static ff_status check_footsteps_def(const ff_crowd_def *def, ff_error *error)
+{
+    const ff_footsteps_def *f = &def->footsteps;
+    if (def->planner < FF_PLANNER_CROWD || def->planner > FF_PLANNER_FOOTSTEPS)
+        return ff_fail(error, FF_ERR_RANGE, "planner is %d; expected one of FF_PLANNER_*", (int)def->planner);
+    ff_status status = check_between(f->nodes, 1.0, NODES_MAX, "footsteps.nodes", error);
+    if (status == FF_OK) status = check_between(f->seconds, 0.0, 10.0, "footsteps.seconds", error);
+    if (status == FF_OK) status = check_between(f->plans, 0.0, AGENTS_MAX, "footsteps.plans", error);
+    if (status == FF_OK) status = check_between(f->expiry, 0.05, 1e3, "footsteps.expiry (s)", error);
+    if (status == FF_OK)
+        status = check_between(f->expiry_actions, 1.0, 1e3, "footsteps.expiry_actions", error);
+    if (status == FF_OK) status = check_between(f->margin, 0.0, 1.0, "footsteps.margin (m)", error);
+    if (status == FF_OK)
+        status = check_between(f->proximity_cost, 0.0, 1e4, "footsteps.proximity_cost", error);
+    if (status == FF_OK)
+        status = check_between(def->max_obstacles, 0.0, OBSTACLES_MAX, "max_obstacles", error);
+    return status;
+}
+
 static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, ff_error *error)
 {
     if (!pack || !def) return ff_fail(error, FF_ERR_ARGUMENT, "a crowd needs a pack and a definition");
@@ -102,19 +128,23 @@ static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, f
         return ff_fail(error, FF_ERR_RANGE, "max_walls is %u; expected at most %u", def->max_walls,
                        WALLS_MAX);
     ff_status status = check_between(def->step, STEP_MIN, STEP_MAX, "step (s)", error);
+    if (status == FF_OK) status = check_footsteps_def(def, error);
     return status == FF_OK ? check_navigation_def(def, error) : status;
 }
 
 static size_t memory_needed(const ff_crowd_def *def)
 {
-    return ff_crowd_arrays_bytes(def) + ff_grid_bytes(def->max_agents) + ff_walls_bytes(def->max_walls);
+    return ((size_t)def->max_obstacles + 1) * sizeof(ff_crowd_obstacle) + 64 + ff_crowd_arrays_bytes(def) +
+           ff_grid_bytes(def->max_agents) + ff_walls_bytes(def->max_walls);
 }
 
 /* Everything that is sized by the definition. */
 static bool take_memory(ff_crowd *crowd)
 {
     const ff_crowd_def *def = &crowd->def;
-    return ff_crowd_arrays_init(crowd, &crowd->arena) &&
+    crowd->obstacles =
+        ff_arena_push(&crowd->arena, (size_t)def->max_obstacles + 1, sizeof *crowd->obstacles, 64);
+    return crowd->obstacles && ff_crowd_arrays_init(crowd, &crowd->arena) &&
            ff_grid_init(&crowd->grid, def->max_agents, &crowd->arena) &&
            ff_walls_init(&crowd->walls, def->max_walls, &crowd->arena);
 }
@@ -167,6 +197,7 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     if (!crowd) return ff_fail(error, FF_ERR_NO_MEMORY, "a crowd");
     crowd->pack = pack;
     crowd->def = *def;
+    if (def->planner == FF_PLANNER_CROWD) crowd->def.planner = FF_PLANNER_VELOCITY;
     if (def->navigation == FF_NAVIGATION_CROWD) crowd->def.navigation = FF_NAVIGATION_MCN;
     if (def->synthesis == FF_SYNTHESIS_CROWD) crowd->def.synthesis = ff_crowd_def_default().synthesis;
     status = make_hull(crowd, error);
@@ -180,6 +211,7 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
     if (status == FF_OK) status = ff_arena_create(&crowd->arena, memory_needed(&crowd->def), error);
     if (status == FF_OK && !take_memory(crowd))
         status = ff_fail(error, FF_ERR_NO_MEMORY, "a crowd of %u agents", def->max_agents);
+    if (status == FF_OK && ff_footsteps_wanted(&crowd->def)) status = ff_footsteps_create(crowd, error);
     if (status != FF_OK) {
         ff_crowd_destroy(crowd);
         return status;
@@ -191,6 +223,7 @@ ff_status ff_crowd_create(const ff_pack *pack, const ff_crowd_def *def, ff_crowd
 void ff_crowd_destroy(ff_crowd *crowd)
 {
     if (!crowd) return;
+    ff_footsteps_destroy(crowd->footsteps);
     ff_arena_destroy(&crowd->arena);
     ff_tasks_destroy(crowd->own_tasks);
     ff_blend_space_destroy(crowd->space);
@@ -250,6 +283,7 @@ static uint32_t take_slot(ff_crowd *crowd)
 
 static void free_slot(ff_crowd *crowd, uint32_t slot)
 {
+    if (crowd->steppers) crowd->steppers[slot].moves = FF_PLANNER_CROWD;
     crowd->alive[slot] = 0;
     --crowd->agent_count;
     crowd->next_free[slot] = crowd->free_first;
@@ -272,6 +306,7 @@ ff_status ff_crowd_put(ff_crowd *crowd, const ff_agent_def *def, uint32_t spawne
                        ff_error *error)
 {
     ff_status status = check_agent_def(crowd, def, error);
+    if (status == FF_OK) status = ff_crowd_check_planner(crowd, def->planner, error);
     if (status != FF_OK) return status;
     if (crowd->agent_count == crowd->def.max_agents)
         return ff_fail(error, FF_ERR_RANGE, "the crowd is full: %u agents; raise max_agents",
@@ -299,6 +334,12 @@ ff_status ff_crowd_put(ff_crowd *crowd, const ff_agent_def *def, uint32_t spawne
     ff_vec2 way = ff_sub2(crowd->traits[slot].goal, def->position);
     if (spawner != FF_NONE && ff_dot2(way, way) > 0.0)
         place_body(crowd, slot, def->position, ff_atan2(way.b, way.a));
+    if (crowd->steppers) {
+        ff_planner planner = def->planner ? def->planner : crowd->def.planner;
+        memset(&crowd->steppers[slot], 0, sizeof crowd->steppers[slot]);
+        crowd->steppers[slot].moves = crowd->steppers[slot].wanted = FF_PLANNER_VELOCITY;
+        if (planner == FF_PLANNER_FOOTSTEPS) ff_stepper_begin(crowd, slot, crowd->gaits[slot].idle_time);
+    }
     ++crowd->added;
     *out = (ff_agent){slot, generation};
     return FF_OK;
@@ -366,7 +407,7 @@ ff_status ff_crowd_set_facing(ff_crowd *crowd, ff_agent agent, ff_face face, ff_
     return FF_OK;
 }
 
-ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *error)
+ff_status ff_crowd_put_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, bool of_obstacle, ff_error *error)
 {
     if (!crowd) return ff_fail(error, FF_ERR_ARGUMENT, "no crowd to add a wall to");
     ff_status status = ff_crowd_check_place(p, "the wall's start", error);
@@ -380,7 +421,13 @@ ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *err
     if (ff_length2(ff_sub2(q, p)) < 1e-6)
         return ff_fail(error, FF_ERR_ARGUMENT, "the wall from (%g, %g) has no length", p.a, p.b);
     ff_walls_add(&crowd->walls, p, q);
+    if (crowd->footsteps && !of_obstacle) ff_solids_add(crowd->footsteps->solids, ff_solid_of_wall(p, q));
     return FF_OK;
+}
+
+ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *error)
+{
+    return ff_crowd_put_wall(crowd, p, q, false, error);
 }
 
 /* ---------------------------------------------------------------------------------------------- questions */
@@ -432,8 +479,10 @@ ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_s
                             .radius = traits->radius,
                             .reached = mind->standing && near && still,
                             .planted = {(uint8_t)ff_gait_planted(gait, 0), (uint8_t)ff_gait_planted(gait, 1)},
+                            .planner = FF_PLANNER_VELOCITY,
                             .way = (uint8_t)gait->blend.way,
                             .number = crowd->number[agent.slot]};
+    if (ff_is_stepper(crowd, agent.slot)) ff_stepper_state(crowd, agent.slot, out);
     return FF_OK;
 }
 

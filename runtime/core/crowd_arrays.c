@@ -32,6 +32,8 @@ static const ff_crowd_array arrays[] = {
     {"COND", FF_ARRAY_AGENT, offsetof(ff_crowd, conducts), sizeof(ff_conduct), has_behaviour,
      ff_crowd_check_conduct},
     {"fire", FF_ARRAY_STEP, offsetof(ff_crowd, firing), sizeof(uint32_t), has_behaviour, NULL},
+    {"STEP", FF_ARRAY_AGENT, offsetof(ff_crowd, steppers), sizeof(ff_stepper), ff_footsteps_wanted,
+     ff_crowd_check_stepper},
     ROW("seen", FF_ARRAY_STEP, unsorted, NULL),
     ROW("near", FF_ARRAY_STEP, neighbours, NULL),
     ROW("nnbr", FF_ARRAY_STEP, neighbour_count, NULL),

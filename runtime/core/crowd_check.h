@@ -13,6 +13,8 @@ const char *ff_crowd_check_velocity(const ff_crowd *crowd, const void *element, 
 const char *ff_crowd_check_choice(const ff_crowd *crowd, const void *element, size_t *byte);
 const char *ff_crowd_check_conduct(const ff_crowd *crowd, const void *element, size_t *byte);
 const char *ff_crowd_check_gait(const ff_crowd *crowd, const void *element, size_t *byte);
+const char *ff_crowd_check_stepper(const ff_crowd *crowd, const void *element,
+                                   size_t *byte); /* crowd_check_step.c */
 
 /* The bytes [from, to) of an element hold doubles: whether all of them lie in [low, high]; else *byte tells the first that
  * does not. */

@@ -17,6 +17,7 @@ uint32_t ff_crowd_section_kinds(ff_section_kind kinds[FF_SECTIONS_MAX])
     kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_WALL, sizeof(ff_saved_wall), 0, 1};
     kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_SPAWN, sizeof(ff_spawning), 0, 0};
     kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_SHOWN, sizeof(uint32_t), 0, 0};
+    kinds[count++] = (ff_section_kind){FF_SECTION_CROWD_OBST, sizeof(ff_crowd_obstacle), 0, 0};
     for (uint32_t i = 0; i < FF_BEHAVIOUR_ARRAYS; ++i)
         kinds[count++] = optional(ff_behaviour_arrays[i].name, ff_behaviour_arrays[i].size);
     for (uint32_t i = 0; i < ff_crowd_array_count(); ++i) {
@@ -43,7 +44,7 @@ ff_section_format ff_crowd_file_format(const ff_section_kind *kinds, uint32_t co
 /* ------------------------------------------------------------------------------------------- definition */
 
 /* A member more or less: save and load it here, then put the new size. */
-_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 136, "is all of a definition saved?");
+_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 224, "is all of a definition saved?");
 
 enum { MCN_PARTS = 11 };
 
@@ -70,7 +71,18 @@ ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
                           .padding = def->mcn.padding,
                           .prediction = def->mcn.prediction,
                           .baseline_keep_right = def->baseline.keep_right,
-                          .baseline_padding = def->baseline.padding};
+                          .baseline_padding = def->baseline.padding,
+                          .plan_seconds = def->footsteps.seconds,
+                          .plan_expiry = def->footsteps.expiry,
+                          .plan_margin = def->footsteps.margin,
+                          .proximity_cost = def->footsteps.proximity_cost,
+                          .planner = def->planner,
+                          .footsteps = (uint32_t)def->footsteps.mixed | (uint32_t)def->footsteps.paper << 1,
+                          .nodes = def->footsteps.nodes,
+                          .plans = def->footsteps.plans,
+                          .actions = def->footsteps.actions,
+                          .expiry_actions = def->footsteps.expiry_actions,
+                          .max_obstacles = def->max_obstacles};
     ff_mcn_def mcn = def->mcn;
     bool *parts[MCN_PARTS];
     mcn_switches(&mcn, parts);
@@ -83,7 +95,8 @@ bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
 {
     if (saved->navigation > FF_NAVIGATION_SF || saved->synthesis > FF_SYNTHESIS_HYBRID ||
         saved->facing > FF_FACING_COMMAND || saved->mcn_parts >> MCN_PARTS != 0 ||
-        saved->model_velocity > 1 || saved->behaviour > 1)
+        saved->planner > FF_PLANNER_FOOTSTEPS || saved->footsteps > 3 || saved->model_velocity > 1 ||
+        saved->behaviour > 1)
         return false;
     *out = ff_crowd_def_default();
     out->max_agents = saved->max_agents;
@@ -102,5 +115,17 @@ bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
     out->mcn.facing = (ff_facing)saved->facing;
     out->mcn.padding = saved->padding;
     out->mcn.prediction = saved->prediction;
+    out->planner = (ff_planner)saved->planner;
+    out->footsteps = (ff_footsteps_def){.mixed = (saved->footsteps & 1u) != 0,
+                                        .paper = (saved->footsteps & 2u) != 0,
+                                        .nodes = saved->nodes,
+                                        .seconds = saved->plan_seconds,
+                                        .plans = saved->plans,
+                                        .actions = saved->actions,
+                                        .expiry = saved->plan_expiry,
+                                        .expiry_actions = saved->expiry_actions,
+                                        .margin = saved->plan_margin,
+                                        .proximity_cost = saved->proximity_cost};
+    out->max_obstacles = saved->max_obstacles;
     return true;
 }

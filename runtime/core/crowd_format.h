@@ -16,6 +16,7 @@ enum {
     FF_SECTION_CROWD_WALL = FF_TAG('W', 'A', 'L', 'L'),  /* ff_saved_wall */
     FF_SECTION_CROWD_SPAWN = FF_TAG('S', 'P', 'W', 'N'), /* ff_spawning: one for each spawner */
     FF_SECTION_CROWD_SHOWN = FF_TAG('S', 'H', 'O', 'W'), /* uint32_t: one for each signal */
+    FF_SECTION_CROWD_OBST = FF_TAG('O', 'B', 'S', 'T'),  /* ff_crowd_obstacle */
 };
 
 /* Where they are in the list of sections. */
@@ -25,6 +26,7 @@ enum {
     FF_SAVED_WALLS,
     FF_SAVED_SPAWNING,
     FF_SAVED_SHOWN,
+    FF_SAVED_OBSTACLES,
     FF_SAVED_BEHAVIOUR,
     FF_SAVED_ARRAYS = FF_SAVED_BEHAVIOUR + FF_BEHAVIOUR_ARRAYS
 };
@@ -49,6 +51,9 @@ typedef struct ff_saved_def {
     double keep_right;          /* rad */
     double padding, prediction; /* m, s */
     double baseline_keep_right, baseline_padding;
+    double plan_seconds, plan_expiry, plan_margin, proximity_cost; /* s, s, m, J/(kg s) */
+    uint32_t planner, footsteps;                                   /* bits of the latter: mixed, paper */
+    uint32_t nodes, plans, actions, expiry_actions, max_obstacles, unused_too;
 } ff_saved_def;
 
 typedef struct ff_saved_wall {

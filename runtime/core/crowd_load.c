@@ -78,6 +78,8 @@ static ff_status read_def(loading *l, const ff_crowd_def *run, ff_crowd_def *def
         def->threads = run->threads;
         def->tasks = run->tasks;
         def->task_pool = run->task_pool;
+        def->waypoint = run->waypoint;
+        def->waypoint_context = run->waypoint_context;
     }
     return FF_OK;
 }
@@ -97,13 +99,36 @@ static ff_status placed(const loading *l, ff_status status, const char *section,
     return ff_fail_section(l->error, status, section, byte, "%s", message);
 }
 
+/* Is the wall one of those that velocity navigation has of a static obstacle? */
+static bool of_obstacle(const ff_crowd *crowd, uint64_t wall)
+{
+    for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
+        const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
+        if (obstacle->kind == FF_OBSTACLE_STATIC && wall - obstacle->first_wall < obstacle->wall_count)
+            return true;
+    }
+    return false;
+}
+
+static ff_status read_obstacles(const loading *l, ff_crowd *crowd)
+{
+    const unsigned char *at = l->views[FF_SAVED_OBSTACLES].data;
+    for (uint64_t i = 0; i < l->views[FF_SAVED_OBSTACLES].count; ++i, at += sizeof(ff_crowd_obstacle)) {
+        ff_crowd_obstacle obstacle;
+        memcpy(&obstacle, at, sizeof obstacle);
+        const char *wrong = ff_obstacle_restore(crowd, &obstacle);
+        if (wrong) return ff_fail_section(l->error, FF_ERR_PARSE, "OBST", place(l, at), "%s", wrong);
+    }
+    return FF_OK;
+}
+
 static ff_status read_walls(const loading *l, ff_crowd *crowd)
 {
     const unsigned char *at = l->views[FF_SAVED_WALLS].data;
     for (uint64_t i = 0; i < l->views[FF_SAVED_WALLS].count; ++i, at += sizeof(ff_saved_wall)) {
         ff_saved_wall wall;
         memcpy(&wall, at, sizeof wall);
-        ff_status status = ff_crowd_add_wall(crowd, wall.from, wall.to, l->error);
+        ff_status status = ff_crowd_put_wall(crowd, wall.from, wall.to, of_obstacle(crowd, i), l->error);
         if (status != FF_OK) return placed(l, status, "WALL", at);
     }
     return FF_OK;
@@ -235,6 +260,7 @@ static ff_status read_crowd(loading *l, const ff_crowd_def *run, ff_crowd **out)
     if (status == FF_OK) status = read_def(l, run, &def);
     if (status != FF_OK) return status;
     status = placed(l, ff_crowd_create(l->pack, &def, out, l->error), "CDEF", l->views[FF_SAVED_DEF].data);
+    if (status == FF_OK) status = read_obstacles(l, *out);
     if (status == FF_OK) status = read_walls(l, *out);
     if (status == FF_OK) status = read_counts(l, *out);
     if (status == FF_OK) status = read_shared(l, *out);
@@ -242,6 +268,7 @@ static ff_status read_crowd(loading *l, const ff_crowd_def *run, ff_crowd **out)
     if (status == FF_OK) status = check_slots(l, *out);
     if (status == FF_OK) status = read_arrays(l, *out, FF_ARRAY_AGENT);
     if (status == FF_OK && (*out)->behaviour) ff_crowd_behave_recount(*out);
+    if (status == FF_OK) ff_footsteps_restore(*out);
     return status;
 }
 

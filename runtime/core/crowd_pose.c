@@ -6,7 +6,11 @@
 static void pose_of(const ff_crowd *crowd, uint32_t slot, ff_vec3 *hips, ff_quat *rotations)
 {
     const ff_body *body = &crowd->bodies[slot];
-    ff_gait_pose(crowd->space, &crowd->gaits[slot], body->position, body->heading, hips, rotations);
+    if (ff_is_stepper(crowd, slot))
+        ff_play_pose(crowd->footsteps->play, &crowd->steppers[slot].play, ff_crowd_time(crowd), hips,
+                     rotations);
+    else
+        ff_gait_pose(crowd->space, &crowd->gaits[slot], body->position, body->heading, hips, rotations);
 }
 
 static void matrices_of(const ff_crowd *crowd, uint32_t slot, ff_vec2 origin, ff_matrix *out)

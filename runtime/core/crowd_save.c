@@ -27,6 +27,7 @@ static void lay_out(const ff_crowd *crowd, saved_layout *layout)
         layout->table[s] = (ff_pack_section){.tag = layout->kinds[s].tag, .stride = layout->kinds[s].stride};
     layout->table[FF_SAVED_HEAD].count = layout->table[FF_SAVED_DEF].count = 1;
     layout->table[FF_SAVED_WALLS].count = crowd->walls.count;
+    layout->table[FF_SAVED_OBSTACLES].count = crowd->obstacle_count;
     if (crowd->behaviour) {
         const ff_behaviour_def *def = &crowd->behaviour->def;
         layout->table[FF_SAVED_SPAWNING].count = def->spawner_count;
@@ -64,6 +65,9 @@ static void write_fixed(const ff_crowd *crowd, const saved_layout *layout, unsig
         ff_saved_wall wall = {crowd->walls.wall[i].from, crowd->walls.wall[i].to};
         memcpy(at, &wall, sizeof wall);
     }
+    if (crowd->obstacle_count > 0)
+        memcpy(data + layout->table[FF_SAVED_OBSTACLES].offset, crowd->obstacles,
+               crowd->obstacle_count * sizeof *crowd->obstacles);
 }
 
 static void write_section(const saved_layout *layout, uint32_t section, const void *from, unsigned char *data)

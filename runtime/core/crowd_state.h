@@ -11,6 +11,7 @@
 #include "runtime/core/behave.h"
 #include "runtime/core/body.h"
 #include "runtime/core/crowd_arrays.h"
+#include "runtime/core/crowd_footsteps.h"
 #include "runtime/core/nav.h"
 #include "runtime/core/synth_choice.h"
 #include "runtime/core/synth_state.h"
@@ -25,7 +26,11 @@ struct ff_crowd {
     ff_hull clip_hull; /* of those who walk on the semi-procedural clip */
     ff_walls walls;
     ff_grid grid;
-    ff_behaviour *behaviour; /* NULL: agents have goals only */
+    ff_behaviour *behaviour;      /* NULL: agents have goals only */
+    ff_footsteps *footsteps;      /* NULL: nobody moves by footsteps */
+    ff_crowd_obstacle *obstacles; /* [max_obstacles] */
+    uint32_t obstacle_count;
+    uint32_t stepper_count; /* agents who move by footsteps in this step */
     ff_crowd_timings timings;
 
     uint64_t steps;
@@ -48,6 +53,7 @@ struct ff_crowd {
     ff_gait *gaits;
     ff_rates *rates;      /* of this step, as the body realised them */
     ff_conduct *conducts; /* of a crowd with behaviour */
+    ff_stepper *steppers; /* NULL: nobody moves by footsteps */
 
     uint32_t *firing; /* per slot, of this step, with behaviour: transition of its state, or FF_NONE */
     /* per agent of this step, in the grid's order */
@@ -69,5 +75,9 @@ double ff_crowd_clock(void); /* s; for reports only */
 ff_status ff_crowd_check_place(ff_vec2 p, const char *what, ff_error *error);
 /* FF_ERR_ARGUMENT unless the agent lives in the crowd. */
 ff_status ff_crowd_check_agent(const ff_crowd *crowd, ff_agent agent, ff_error *error);
+/* A wall; of_obstacle: one that stands for an obstacle, which those who plan see as it is. */
+ff_status ff_crowd_put_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, bool of_obstacle, ff_error *error);
+/* One that is known, and that the crowd has memory for (crowd_footsteps.c). */
+ff_status ff_crowd_check_planner(const ff_crowd *crowd, ff_planner planner, ff_error *error);
 
 #endif

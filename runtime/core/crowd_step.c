@@ -62,6 +62,7 @@ static bool baseline(const ff_crowd *crowd, uint32_t slot)
 static void snapshot(ff_crowd *crowd)
 {
     uint32_t count = 0;
+    crowd->stepper_count = 0;
     for (uint32_t slot = 0; slot < crowd->slot_count; ++slot) {
         if (!crowd->alive[slot]) continue;
         const ff_body *body = &crowd->bodies[slot];
@@ -80,7 +81,9 @@ static void snapshot(ff_crowd *crowd)
                                              .goal = crowd->traits[slot].goal,
                                              .radius = crowd->traits[slot].radius,
                                              .slot = slot,
-                                             .standing = mind->standing};
+                                             .standing = mind->standing,
+                                             .firm = ff_is_stepper(crowd, slot)};
+        crowd->stepper_count += ff_is_stepper(crowd, slot);
     }
     ff_grid_fill(&crowd->grid, crowd->unsorted, count);
 }
@@ -88,6 +91,7 @@ static void snapshot(ff_crowd *crowd)
 static void find_neighbours(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
+    if (ff_is_stepper(crowd, slot)) return;
     double padding = baseline(crowd, slot) ? crowd->def.baseline.padding : crowd->def.mcn.padding;
     crowd->neighbour_count[index] =
         ff_grid_neighbours(&crowd->grid, index, padding, crowd->neighbours[index]);
@@ -122,6 +126,7 @@ static void choose(ff_crowd *crowd, uint32_t index)
 static void navigate(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
+    if (ff_is_stepper(crowd, slot)) return;
     const ff_crowd_def *def = &crowd->def;
     bool clip = crowd->gaits[slot].blend.way == FF_SEMI_PROCEDURAL &&
                 crowd->traits[slot].preferred_speed <= FF_RUN_PREFERRED;
@@ -164,6 +169,10 @@ static double step_phase(const ff_gait *gait)
 static void move(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->live[index];
+    if (ff_is_stepper(crowd, slot)) {
+        ff_footsteps_play(crowd, slot);
+        return;
+    }
     ff_body *body = &crowd->bodies[slot];
     const ff_mind *mind = &crowd->minds[slot];
     const ff_wall *walls[FF_NEAR_WALLS_MAX];
@@ -187,6 +196,7 @@ static void move(ff_crowd *crowd, uint32_t index)
 static void synthesise(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->live[index];
+    if (ff_is_stepper(crowd, slot)) return;
     const ff_body *body = &crowd->bodies[slot];
     ff_gait_step(crowd->space, &crowd->gaits[slot], body->position, body->heading, crowd->rates[slot],
                  crowd->def.step);
@@ -198,10 +208,17 @@ void ff_crowd_step(ff_crowd *crowd)
     double start = ff_crowd_clock();
     if (crowd->behaviour) ff_crowd_behave(crowd);
     double behaved = ff_crowd_clock();
+    if (crowd->footsteps) ff_footsteps_change(crowd);
+    ff_obstacles_step(crowd);
     snapshot(crowd);
     double seen = ff_crowd_clock();
     double found = run_phase(crowd, find_neighbours);
     double decided = run_phase(crowd, navigate);
+    double planned = decided;
+    if (crowd->footsteps) {
+        run_phase(crowd, ff_footsteps_watch);
+        planned = ff_footsteps_plan(crowd);
+    }
     double moved = run_phase(crowd, move);
     double stepped = run_phase(crowd, synthesise);
     ++crowd->steps;
@@ -209,7 +226,8 @@ void ff_crowd_step(ff_crowd *crowd)
     spent->snapshot += seen - behaved;
     spent->neighbours += found - seen;
     spent->navigation += decided - found;
-    spent->bodies += moved - decided;
+    spent->planning += planned - decided;
+    spent->bodies += moved - planned;
     spent->synthesis += stepped - moved;
     spent->total += stepped - start;
 }

@@ -79,6 +79,17 @@ ff_leg ff_leg_of_clip(const ff_body_frame *body, int foot, ff_vec3 hips, ff_quat
     return leg;
 }
 
+void ff_legs_of_pose(const ff_body_frame *body, ff_vec3 hips, const ff_quat *rotations, ff_vec3 ball[2],
+                     ff_quat foot_turn[2])
+{
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_leg leg = ff_leg_of_clip(body, foot, hips, rotations[FF_JOINT_HIPS], rotations);
+        int joint = FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE;
+        foot_turn[foot] = leg.foot;
+        ball[foot] = ff_add3(leg.ankle, ff_quat_rotate(leg.foot, body->offset[joint]));
+    }
+}
+
 void ff_leg_pose(const ff_body_frame *body, int foot, const ff_leg_target *target, ff_leg *leg,
                  ff_quat hips_turn, ff_quat *rotations)
 {

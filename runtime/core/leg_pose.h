@@ -9,6 +9,10 @@
 ff_leg ff_leg_of_clip(const ff_body_frame *body, int foot, ff_vec3 hips, ff_quat hips_turn,
                       const ff_quat *rotations);
 
+/* Where the balls of a pose are and how its feet are turned, in the world as the hips are (rotations[0]). */
+void ff_legs_of_pose(const ff_body_frame *body, ff_vec3 hips, const ff_quat *rotations, ff_vec3 ball[2],
+                     ff_quat foot_turn[2]);
+
 typedef struct ff_leg_target {
     ff_foothold ball;  /* yaw: of the foot, about which way a heel is raised */
     ff_quat turn;      /* of the foot, in the world */

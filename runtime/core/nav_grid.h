@@ -23,6 +23,8 @@ typedef struct ff_seen {
     double radius;     /* m */
     uint32_t slot;
     uint32_t standing; /* 0: walks (nav.h) */
+    uint32_t firm;     /* 1: moves by footsteps that are planned already, and gives no way */
+    uint32_t unused;
 } ff_seen;
 
 typedef struct ff_grid {

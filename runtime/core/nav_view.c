@@ -3,7 +3,7 @@
 #include "runtime/core/nav_forces.h"
 #include "runtime/core/nav_orca.h"
 
-#define SHARE 0.5      /* of the avoidance, as the other does the same */
+#define SHARE 0.5      /* of the avoidance, as the other does the same (unless it is firm) */
 #define WEIGHT_MAX 4.0 /* of the most pressing neighbour in the dense fallback */
 /* Of somebody behind: who follows looks out for himself. Else those in a column cannot brake for one who comes from the
  * side, each because of the next behind him (not in the study). */
@@ -67,7 +67,7 @@ static ff_line avoid(const ff_nav_view *view, const ff_neighbour *neighbour, ff_
     }
     ff_line line =
         ff_orca_disc(then, ff_sub2(me->reference, other->reference), me->reference, reach, FF_HORIZON - ahead,
-                     SHARE, ff_max(view->world->step, OVERLAP_TIME), how.lean, apart(me, other));
+                     other->firm ? 1.0 : SHARE, ff_max(view->world->step, OVERLAP_TIME), how.lean, apart(me, other));
     if (!how.weighted) return line;
     line.weight = ff_clamp(FF_HORIZON / ff_max(neighbour->time, OVERLAP_TIME), 1.0, WEIGHT_MAX);
     if (!me->standing && ff_dot2(now, me->velocity) < 0.0) line.weight *= BEHIND;

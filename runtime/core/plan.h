@@ -79,7 +79,7 @@ typedef struct ff_footprint {
 ff_footprint ff_plan_landing(const ff_action_set *set, const ff_plan_step *step);
 
 /* Root (a, b, heading) of the action alone at a time within step i: the clip's, without what joins it to the step before. */
-ff_root_frame ff_plan_root(const ff_action_set *set, const ff_plan *plan, double time);
+ff_root_frame ff_plan_root_at(const ff_action_set *set, const ff_plan *plan, double time);
 
 /* The colliders at a time, joins included: plane coordinates and height over the ground, in order of FF_COLLIDER_*. The
  * track runs straight between these at its knots. */
@@ -156,6 +156,9 @@ typedef struct ff_mover {
     uint32_t cyclic;
     double start; /* s */
 } ff_mover;
+
+/* Where its path has it at a time, without the shape's own centre. */
+ff_vec2 ff_mover_at(const ff_mover *mover, double time);
 
 /* Who goes by velocity: believed to go on straight for a while, with room that grows. */
 typedef struct ff_walker {

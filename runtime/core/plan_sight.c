@@ -26,7 +26,7 @@ static void see_tracks(ff_sight *s, const ff_plan_world *world, double view, uin
 }
 
 /* Where a mover is at a time. */
-static ff_vec2 mover_at(const ff_mover *mover, double time)
+ff_vec2 ff_mover_at(const ff_mover *mover, double time)
 {
     double t = time - mover->start, last = mover->path[mover->count - 1].time;
     if (mover->cyclic && last > 0.0) t -= last * floor(t / last);
@@ -46,7 +46,7 @@ static double corner_slack(const ff_mover *mover, double from, double to, ff_vec
     double most = 0.0;
     for (int i = 1; i < LOOKS; ++i) {
         double share = (double)i / LOOKS;
-        ff_vec2 there = mover_at(mover, ff_lerp(from, to, share));
+        ff_vec2 there = ff_mover_at(mover, ff_lerp(from, to, share));
         ff_vec2 straight = ff_madd2(p, ff_sub2(q, p), share);
         most = ff_max(most, ff_length2(ff_sub2(there, straight)));
     }
@@ -67,7 +67,7 @@ static void see_movers(ff_sight *s, const ff_plan_world *world)
         m->gone = 0;
         double time = (double)s->first_knot * FF_TRACK_STEP;
         for (uint32_t k = 0; k < FF_TRACK_KNOTS_MAX; ++k)
-            m->at[k] = ff_add2(centre, mover_at(from, time + k * FF_TRACK_STEP));
+            m->at[k] = ff_add2(centre, ff_mover_at(from, time + k * FF_TRACK_STEP));
         for (uint32_t k = 0; k + 1 < FF_TRACK_KNOTS_MAX; ++k)
             m->slack[k] = (float)corner_slack(from, time + k * FF_TRACK_STEP, time + (k + 1) * FF_TRACK_STEP,
                                               ff_sub2(m->at[k], centre), ff_sub2(m->at[k + 1], centre));

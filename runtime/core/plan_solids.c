@@ -125,33 +125,44 @@ static void put_in_tree(ff_solids *solids, uint32_t index)
     }
 }
 
-ff_status ff_solids_create(const ff_vec2 (*walls)[2], uint32_t wall_count, const ff_shape *shapes,
-                           uint32_t shape_count, ff_solids **out, ff_error *error)
+ff_status ff_solids_reserve(uint32_t capacity, ff_solids **out, ff_error *error)
 {
     *out = NULL;
-    uint32_t count = wall_count + shape_count, leaves = 1;
-    while (leaves < count && leaves < 1u << 30)
+    uint32_t leaves = 1;
+    while (leaves < capacity && leaves < 1u << 30)
         leaves *= 2;
     ff_solids *solids = ff_calloc(1, sizeof *solids);
     if (solids) {
-        *solids = (ff_solids){.count = count, .leaves = leaves};
-        solids->items = ff_calloc(count, sizeof *solids->items);
+        solids->leaves = leaves;
+        solids->items = ff_calloc(capacity, sizeof *solids->items);
         solids->box = ff_calloc(2 * (size_t)leaves, sizeof *solids->box);
     }
     if (!solids || !solids->items || !solids->box) {
         ff_solids_destroy(solids);
-        return ff_fail(error, FF_ERR_NO_MEMORY, "%u walls and %u obstacles", wall_count, shape_count);
+        return ff_fail(error, FF_ERR_NO_MEMORY, "%u walls and obstacles", capacity);
     }
     for (uint32_t i = 0; i < 2 * leaves; ++i)
         for (int k = 0; k < 4; ++k)
             solids->box[i][k] = k < 2 ? INFINITY : -INFINITY;
-    for (uint32_t i = 0; i < count; ++i) {
-        solids->items[i] = i < wall_count ? ff_solid_of_wall(walls[i][0], walls[i][1])
-                                          : ff_solid_of_shape(&shapes[i - wall_count]);
-        put_in_tree(solids, i);
-    }
     *out = solids;
     return FF_OK;
+}
+
+void ff_solids_add(ff_solids *solids, ff_solid solid)
+{
+    solids->items[solids->count] = solid;
+    put_in_tree(solids, solids->count++);
+}
+
+ff_status ff_solids_create(const ff_vec2 (*walls)[2], uint32_t wall_count, const ff_shape *shapes,
+                           uint32_t shape_count, ff_solids **out, ff_error *error)
+{
+    ff_status status = ff_solids_reserve(wall_count + shape_count, out, error);
+    for (uint32_t i = 0; status == FF_OK && i < wall_count; ++i)
+        ff_solids_add(*out, ff_solid_of_wall(walls[i][0], walls[i][1]));
+    for (uint32_t i = 0; status == FF_OK && i < shape_count; ++i)
+        ff_solids_add(*out, ff_solid_of_shape(&shapes[i]));
+    return status;
 }
 
 void ff_solids_destroy(ff_solids *solids)

@@ -30,6 +30,10 @@ struct ff_solids {
     uint32_t count, leaves;
 };
 
+/* None yet, with room for so many; and one more of them. */
+ff_status ff_solids_reserve(uint32_t capacity, ff_solids **out, ff_error *error);
+void ff_solids_add(ff_solids *solids, ff_solid solid);
+
 /* Is any within the radius of p? */
 bool ff_solids_near(const ff_solids *solids, ff_vec2 p, double radius);
 

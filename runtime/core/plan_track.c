@@ -44,7 +44,7 @@ ff_footprint ff_plan_landing(const ff_action_set *set, const ff_plan_step *step)
                           step->heading + (double)r->land[2]};
 }
 
-ff_root_frame ff_plan_root(const ff_action_set *set, const ff_plan *plan, double time)
+ff_root_frame ff_plan_root_at(const ff_action_set *set, const ff_plan *plan, double time)
 {
     const ff_plan_step *step = &plan->steps[ff_plan_step_at(plan, time)];
     const ff_set_action *a = &set->actions[step->action];

@@ -78,7 +78,10 @@ void ff_play_next(const ff_play_set *set, ff_play *play, const ff_play_order *or
 {
     ff_play_step *now = &play->step[0];
     bool stands = now->action == FF_PLAY_STAND;
-    if (stands) now->end = order ? order->start : FF_PLAY_FOREVER;
+    if (order)
+        now->end = order->start; /* its own end but for rounding */
+    else if (stands)
+        now->end = FF_PLAY_FOREVER;
     memset(&play->step[1], 0, sizeof play->step[1]);
     if (order && order->action != FF_PLAY_STAND) {
         ff_play_foot feet[2];
@@ -174,4 +177,17 @@ void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *ord
     play->step[0].entered = time;
     ff_play_next(set, play, NULL);
     ff_play_join(set, play, shown, LATER, time);
+}
+
+void ff_play_enter(const ff_play_set *set, ff_play *play, const ff_play_order *order,
+                   const ff_play_foot feet[2], const ff_play_targets shown[2], double later, double time,
+                   double idle_time)
+{
+    memset(play, 0, sizeof *play);
+    play->idle_time = idle_time - time;
+    play->step[0] = order->action == FF_PLAY_STAND ? stand_at(set, feet, order->heading, time)
+                                                   : step_of(set, order, feet);
+    play->step[0].entered = time;
+    ff_play_next(set, play, NULL);
+    ff_play_join(set, play, shown, later, time);
 }

@@ -52,20 +52,6 @@ typedef struct ff_play_order {
     double heading;
 } ff_play_order;
 
-/* Stand in the last pose of an action from time on. idle_time: where in the idle motion (s). */
-void ff_play_init(const ff_play_set *set, ff_play *play, const ff_play_order *last, double time,
-                  double idle_time);
-
-/* What follows the entry that is being played. It must start when that one ends; one who stands may start at any time from
- * now on. Without an order, and after each one, the body stands. */
-void ff_play_next(const ff_play_set *set, ff_play *play, const ff_play_order *order);
-
-/* Take over in the middle of the present entry, at time: the order has begun at its own start, which may lie before. */
-void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *order, double time);
-
-/* Time has come to this: entries that are over by then are left, each join at its own moment. Never backwards. */
-void ff_play_advance(const ff_play_set *set, ff_play *play, double time);
-
 /* A pose before the legs are solved to it. */
 typedef struct ff_play_targets {
     ff_vec2 root;
@@ -77,6 +63,26 @@ typedef struct ff_play_targets {
     uint32_t planted[2];
     double grip[2]; /* 1 while planted, fading to 0 after and rising to it before */
 } ff_play_targets;
+
+/* Stand in the last pose of an action from time on. idle_time: where in the idle motion (s). */
+void ff_play_init(const ff_play_set *set, ff_play *play, const ff_play_order *last, double time,
+                  double idle_time);
+
+/* What follows the entry that is being played. It must start when that one ends; one who stands may start at any time from
+ * now on. Without an order, and after each one, the body stands. */
+void ff_play_next(const ff_play_set *set, ff_play *play, const ff_play_order *order);
+
+/* Begin with an order at time (FF_PLAY_STAND: facing its heading), coming from another motion: the feet are where they are, and what was shown, at time and
+ * a little later, fades out. */
+void ff_play_enter(const ff_play_set *set, ff_play *play, const ff_play_order *order,
+                   const ff_play_foot feet[2], const ff_play_targets shown[2], double later, double time,
+                   double idle_time);
+
+/* Take over in the middle of the present entry, at time: the order has begun at its own start, which may lie before. */
+void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *order, double time);
+
+/* Time has come to this: entries that are over by then are left, each join at its own moment. Never backwards. */
+void ff_play_advance(const ff_play_set *set, ff_play *play, double time);
 
 /* At a time within the present entry. */
 void ff_play_targets_at(const ff_play_set *set, const ff_play *play, double time, ff_play_targets *out);

@@ -2,6 +2,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
+#include "runtime/core/leg_pose.h"
 
 #include <stdlib.h>
 
@@ -13,21 +14,6 @@
 double ff_play_foot_yaw(ff_quat rotation)
 {
     return ff_quat_heading(rotation);
-}
-
-static void sample_feet(const ff_body_frame *body, ff_play_sample *at)
-{
-    for (int foot = 0; foot < 2; ++foot) {
-        int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
-        ff_vec3 place = at->hips;
-        ff_quat turn = at->rotations[FF_JOINT_HIPS];
-        for (int j = joint; j < joint + 3; ++j) {
-            place = ff_add3(place, ff_quat_rotate(turn, body->offset[j]));
-            turn = ff_quat_mul(turn, at->rotations[j]);
-        }
-        at->foot[foot] = turn;
-        at->ball[foot] = ff_add3(place, ff_quat_rotate(turn, body->offset[joint + 3]));
-    }
 }
 
 /* Seen from a place and heading of the stream's world. */
@@ -43,7 +29,7 @@ static void sample_from(const ff_play_set *set, const ff_play_action *action, do
     ff_root_frame here = {out->root, out->heading};
     ff_root_place(&here, &out->hips, &out->rotations[FF_JOINT_HIPS]);
     out->hips.y -= action->level;
-    sample_feet(&set->space->body, out);
+    ff_legs_of_pose(&set->space->body, out->hips, out->rotations, out->ball, out->foot);
 }
 
 void ff_play_sample_at(const ff_play_set *set, uint32_t action, double time, ff_play_sample *out)

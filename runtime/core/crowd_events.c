@@ -1,0 +1,108 @@
+/* crowd_events.c - the events monitor: who needs a new plan, and why (Beacco et al. 2013, 3.1; algorithms B.8). */
+#include "runtime/core/crowd_footsteps.h"
+#include "runtime/core/crowd_state.h"
+
+#define GOAL_MOVED 0.2     /* m, algorithms B.8 */
+#define WAYPOINT_NEAR 0.6  /* m, within which a waypoint counts as passed (B.3) */
+#define WAYPOINT_WIDTH 0.3 /* m, half of the way on which the next one is seen (B.7) */
+#define FORESEEN 2.0       /* s, in which obstacles on paths are looked for */
+#define IMMINENT 1.0       /* s, the same of what is not to be foreseen (B.8) */
+#define SURPRISE_REACH 6.0 /* m, within which that is seen */
+
+static void call_for(ff_stepper *s, ff_plan_event event, double time)
+{
+    if (s->pending == 0) s->asked = time;
+    if (!(s->pending >> event & 1u)) ++s->counts.events[event];
+    s->pending |= 1u << event;
+}
+
+/* Waypoints are left behind when they are reached, or when a later one is seen (B.7). */
+static void pass_waypoints(const ff_crowd *crowd, uint32_t slot, ff_stepper *s)
+{
+    if (s->waypoint_next >= s->waypoint_count) return;
+    ff_vec2 way[FF_WAYPOINTS_MAX + 1], here = crowd->bodies[slot].position;
+    for (uint32_t i = 0; i < s->waypoint_count; ++i)
+        way[i] = s->waypoint[i];
+    way[s->waypoint_count] = crowd->traits[slot].goal;
+    if (ff_length2(ff_sub2(way[s->waypoint_next], here)) < WAYPOINT_NEAR) ++s->waypoint_next;
+    s->waypoint_next = ff_waypoint_seen(crowd->footsteps->solids, way, s->waypoint_count + 1,
+                                        s->waypoint_next, here, WAYPOINT_WIDTH);
+}
+
+bool ff_bounds_meet(const ff_stepper *s, ff_vec2 low, ff_vec2 high)
+{
+    return s->low.a <= high.a && low.a <= s->high.a && s->low.b <= high.b && low.b <= s->high.b;
+}
+
+/* A plan that came into force in the last step crosses this one. In the planner's own formulation that happens only where
+ * somebody had to break off a step. */
+static bool crossed(const ff_crowd *crowd, uint32_t slot, double time)
+{
+    const ff_footsteps *f = crowd->footsteps;
+    const ff_stepper *s = &crowd->steppers[slot];
+    for (uint32_t i = 0; i < f->changed_count; ++i) {
+        const ff_stepper *other = &crowd->steppers[f->changed[i]];
+        if (f->changed[i] == slot || !ff_is_stepper(crowd, f->changed[i])) continue;
+        if (ff_bounds_meet(s, other->low, other->high) &&
+            ff_track_conflict(&s->track, &other->track, time, 0.0, NULL))
+            return true;
+    }
+    return false;
+}
+
+static bool met_on_path(const ff_crowd *crowd, const ff_stepper *s, double time)
+{
+    for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
+        const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
+        if (obstacle->kind == FF_OBSTACLE_PATH &&
+            ff_track_meets(&s->track, time, FORESEEN, &obstacle->shape, obstacle->velocity, 0.0, NULL))
+            return true;
+    }
+    return false;
+}
+
+/* Something moved by the caller, or somebody who goes by velocity, is about to be met. */
+static bool surprised(const ff_crowd *crowd, uint32_t slot, double time)
+{
+    const ff_stepper *s = &crowd->steppers[slot];
+    ff_vec2 here = crowd->bodies[slot].position;
+    for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
+        const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
+        if (obstacle->kind == FF_OBSTACLE_FREE &&
+            ff_track_meets(&s->track, time, IMMINENT, &obstacle->shape, obstacle->velocity, 0.0, NULL))
+            return true;
+    }
+    if (crowd->stepper_count == crowd->agent_count) return false;
+    for (uint32_t i = 0; i < crowd->grid.count; ++i) {
+        const ff_seen *other = &crowd->grid.seen[i];
+        if (ff_is_stepper(crowd, other->slot) || ff_length2(ff_sub2(other->position, here)) > SURPRISE_REACH)
+            continue;
+        ff_shape disc = {.centre = other->position, .radius = other->radius, .high = 2.0};
+        if (ff_track_meets(&s->track, time, IMMINENT, &disc, other->velocity, 0.0, NULL)) return true;
+    }
+    return false;
+}
+
+void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
+{
+    uint32_t slot = crowd->grid.seen[index].slot;
+    if (!ff_is_stepper(crowd, slot)) return;
+    ff_stepper *s = &crowd->steppers[slot];
+    const ff_footsteps_def *def = &crowd->def.footsteps;
+    double time = ff_crowd_time(crowd);
+    pass_waypoints(crowd, slot, s);
+    bool arrived = ff_stepper_arrived(crowd, slot), done = s->at + 1 == s->plan.count;
+    if (ff_length2(ff_sub2(ff_stepper_target(crowd, slot), s->target)) > GOAL_MOVED)
+        call_for(s, FF_EVENT_GOAL, time);
+    if (!arrived && (done || time - s->created >= def->expiry || s->consumed >= def->expiry_actions))
+        call_for(s, FF_EVENT_EXPIRY, time);
+    if (crossed(crowd, slot, time) || met_on_path(crowd, s, time)) call_for(s, FF_EVENT_NEARBY, time);
+    if (surprised(crowd, slot, time)) {
+        if (!(s->pending >> FF_EVENT_SURPRISE & 1u)) s->surprised = time;
+        call_for(s, FF_EVENT_SURPRISE, time);
+    }
+    /* Only without passive safety does a plan end in anything but a stand. */
+    uint32_t last = s->plan.steps[s->plan.count - 1].action;
+    if (done && !(ff_action_set_record(crowd->footsteps->actions, last)->flags & FF_ACTION_TO_STANDING))
+        s->counts.without_plan += crowd->def.step;
+}

@@ -1,0 +1,271 @@
+/* crowd_plan.c - whose turn it is to plan, the searches, and plans coming into force (algorithms B.8). */
+#include "runtime/core/crowd_footsteps.h"
+#include "runtime/core/crowd_state.h"
+
+#include <string.h>
+
+#define RETRY 0.15         /* s, after which is tried again what was in vain (footstep study, section 4.3) */
+#define CLOSE_TO_STOP 0.5  /* s: who is so near to the stop at the end of its plan plans first */
+#define VIEW 9.0           /* m, footstep study, section 4.6 */
+#define SURPRISE_VIEW 6.0  /* m, within which obstacles that the caller moves are seen */
+#define LEAD 0.5           /* s: and where they will be by then, too */
+#define GOAL_REACH 0.7     /* of the goal's tolerance, that a plan reaches into it */
+#define WAYPOINT_REACH 0.6 /* m */
+#define IMMINENT 1.0       /* s */
+
+enum { FIRST, SOON, LATER }; /* urgency */
+
+/* ------------------------------------------------------------------------------------------------- whose turn */
+
+static uint32_t urgency_of(const ff_stepper *s, double time)
+{
+    if (s->pending >> FF_EVENT_SURPRISE & 1u) return FIRST;
+    if (s->counts.plans == 0) return SOON;
+    uint32_t stop = s->plan.stop < s->plan.count ? s->plan.stop : s->plan.count - 1;
+    bool ends = s->plan.steps[stop].start - time < CLOSE_TO_STOP && s->at + 1 < s->plan.count;
+    return ends ? SOON : LATER;
+}
+
+static bool before(const ff_plan_job *p, const ff_plan_job *q)
+{
+    if (p->urgency != q->urgency) return p->urgency < q->urgency;
+    if (p->asked != q->asked) return p->asked < q->asked;
+    return p->slot < q->slot;
+}
+
+/* The jobs of this step are the first job_max of all, in order of urgency, of waiting, of slots: nobody starves. */
+static void line_up(ff_footsteps *f, const ff_plan_job *job)
+{
+    uint32_t at = f->job_count;
+    if (at == f->job_max) {
+        if (!before(job, &f->jobs[at - 1])) return;
+        --at;
+    } else {
+        ++f->job_count;
+    }
+    for (; at > 0 && before(job, &f->jobs[at - 1]); --at) {
+        f->jobs[at].slot = f->jobs[at - 1].slot;
+        f->jobs[at].kind = f->jobs[at - 1].kind;
+        f->jobs[at].urgency = f->jobs[at - 1].urgency;
+        f->jobs[at].asked = f->jobs[at - 1].asked;
+    }
+    f->jobs[at].slot = job->slot;
+    f->jobs[at].kind = job->kind;
+    f->jobs[at].urgency = job->urgency;
+    f->jobs[at].asked = job->asked;
+}
+
+static void choose_jobs(ff_crowd *crowd, double time)
+{
+    ff_footsteps *f = crowd->footsteps;
+    f->job_count = 0;
+    for (uint32_t slot = 0; slot < crowd->slot_count; ++slot) {
+        if (!crowd->alive[slot]) continue;
+        const ff_stepper *s = &crowd->steppers[slot];
+        ff_plan_job job = {.slot = slot, .asked = s->asked};
+        if (s->moves == FF_PLANNER_FOOTSTEPS) {
+            if (s->pending == 0 || s->retry > time) continue;
+            job.kind = FF_JOB_PLAN;
+            job.urgency = urgency_of(s, time);
+        } else {
+            if (s->wanted != FF_PLANNER_FOOTSTEPS || s->retry > time) continue;
+            job.kind = FF_JOB_ENTER;
+            job.urgency = SOON;
+        }
+        line_up(f, &job);
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------- the world */
+
+static void see_steppers(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world)
+{
+    ff_vec2 here = crowd->bodies[slot].position, reach = ff_v2(VIEW, VIEW);
+    ff_vec2 low = ff_sub2(here, reach), high = ff_add2(here, reach);
+    for (uint32_t i = 0; i < crowd->slot_count; ++i)
+        if (i != slot && crowd->alive[i] && ff_is_stepper(crowd, i) &&
+            ff_bounds_meet(&crowd->steppers[i], low, high))
+            lane->tracks[world->track_count++] = &crowd->steppers[i].track;
+    world->tracks = lane->tracks;
+}
+
+static void see_walkers(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world)
+{
+    world->walkers = lane->walkers;
+    if (crowd->stepper_count == crowd->agent_count) return;
+    ff_vec2 here = crowd->bodies[slot].position;
+    for (uint32_t i = 0; i < crowd->grid.count; ++i) {
+        const ff_seen *other = &crowd->grid.seen[i];
+        if (other->slot == slot || ff_is_stepper(crowd, other->slot) ||
+            ff_length2(ff_sub2(other->position, here)) > VIEW)
+            continue;
+        lane->walkers[world->walker_count++] = (ff_walker){other->position, other->velocity, other->radius};
+    }
+}
+
+/* Obstacles that the caller moves are seen where they are, and, if they move, where they will be shortly. */
+static void see_obstacles(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world)
+{
+    ff_vec2 here = crowd->bodies[slot].position;
+    world->shapes = lane->shapes;
+    for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
+        const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
+        if (obstacle->kind != FF_OBSTACLE_FREE) continue;
+        double far = ff_length2(ff_sub2(obstacle->shape.centre, here)) - obstacle->shape.half_length -
+                     obstacle->shape.half_width - obstacle->shape.radius;
+        if (far > SURPRISE_VIEW) continue;
+        lane->shapes[world->shape_count++] = obstacle->shape;
+        if (ff_dot2(obstacle->velocity, obstacle->velocity) == 0.0) continue;
+        ff_shape *ahead = &lane->shapes[world->shape_count++];
+        *ahead = obstacle->shape;
+        ahead->centre = ff_madd2(ahead->centre, obstacle->velocity, LEAD);
+    }
+}
+
+static ff_plan_world world_of(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane)
+{
+    const ff_footsteps *f = crowd->footsteps;
+    ff_plan_world world = {.solids = f->solids, .movers = f->movers, .mover_count = f->mover_count};
+    see_steppers(crowd, slot, lane, &world);
+    see_walkers(crowd, slot, lane, &world);
+    see_obstacles(crowd, slot, lane, &world);
+    return world;
+}
+
+/* ------------------------------------------------------------------------------------------------- searching */
+
+bool ff_job_free(const ff_crowd *crowd, const ff_plan_job *job, uint32_t slot, double time)
+{
+    const ff_stepper *other = &crowd->steppers[slot], *own = &crowd->steppers[job->slot];
+    if (slot == job->slot || !ff_bounds_meet(other, job->low, job->high)) return true;
+    if (!ff_track_conflict(&job->track, &other->track, time, 0.0, NULL)) return true;
+    /* Those who are in each other's way already may do what they can. */
+    return ff_is_stepper(crowd, job->slot) && ff_track_conflict(&own->track, &other->track, time, 0.0, NULL);
+}
+
+/* The track, and whether it is free of all plans in force. */
+static void finish_job(const ff_crowd *crowd, ff_plan_job *job, double time)
+{
+    ff_plan_track(crowd->footsteps->actions, &job->plan, time, &job->track);
+    ff_track_bounds(&job->track, &job->low, &job->high);
+    job->good = 1;
+    for (uint32_t i = 0; i < crowd->slot_count && job->good && !crowd->def.footsteps.paper; ++i)
+        if (crowd->alive[i] && ff_is_stepper(crowd, i)) job->good = ff_job_free(crowd, job, i, time);
+    if (!job->good) ++job->counts.conflicting;
+}
+
+static ff_plan_goal goal_of(const ff_crowd *crowd, uint32_t slot, ff_vec2 target)
+{
+    const ff_traits *traits = &crowd->traits[slot];
+    ff_plan_goal goal = ff_plan_goal_at(target);
+    bool last = target.a == traits->goal.a && target.b == traits->goal.b;
+    goal.radius = last ? GOAL_REACH * traits->goal_tolerance : WAYPOINT_REACH;
+    return goal;
+}
+
+static bool meets_shapes(const ff_plan_world *world, const ff_track *track, double time)
+{
+    for (uint32_t i = 0; i < world->shape_count; ++i)
+        if (ff_track_meets(track, time, IMMINENT, &world->shapes[i], ff_v2(0.0, 0.0), 0.0, NULL)) return true;
+    return false;
+}
+
+static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
+{
+    const ff_footsteps *f = crowd->footsteps;
+    const ff_stepper *s = &crowd->steppers[job->slot];
+    double time = ff_crowd_time(crowd);
+    ff_plan current = s->plan;
+    job->good = 0;
+    memset(&job->counts, 0, sizeof job->counts);
+    if (job->kind == FF_JOB_ENTER && !ff_stepper_enters(crowd, job->slot, time, &current)) return;
+    ff_plan_world world = world_of(crowd, job->slot, lane);
+    job->target = ff_stepper_target(crowd, job->slot);
+    ff_plan_goal goal = goal_of(crowd, job->slot, job->target);
+    ff_plan_result result =
+        ff_plan_search(f->actions, &world, &current, time, &goal, &f->options, lane->scratch, &job->plan);
+    job->counts.searches = 1;
+    job->counts.nodes = result.expanded;
+    if (result.outcome == FF_PLAN_NONE)
+        ++job->counts.failed;
+    else
+        finish_job(crowd, job, time);
+    if (job->kind == FF_JOB_PLAN && s->pending >> FF_EVENT_SURPRISE & 1u &&
+        (!job->good || meets_shapes(&world, &job->track, time)))
+        ff_stepper_react(crowd, job->slot, &world, time, job);
+}
+
+typedef struct lane_work {
+    ff_crowd *crowd;
+} lane_work;
+
+static void run_lane(void *context, uint32_t index)
+{
+    ff_crowd *crowd = ((lane_work *)context)->crowd;
+    ff_footsteps *f = crowd->footsteps;
+    for (uint32_t i = index; i < f->job_count; i += f->lane_count)
+        search(crowd, &f->jobs[i], &f->lane[index]);
+}
+
+/* ------------------------------------------------------------------------------------------------- in force */
+
+static void add_counts(ff_plan_counts *sum, const ff_plan_counts *add)
+{
+    sum->searches += add->searches;
+    sum->failed += add->failed;
+    sum->conflicting += add->conflicting;
+    sum->reactions += add->reactions;
+    sum->nodes += add->nodes;
+}
+
+/* In the order of slots, each plan is checked against those that have come into force before it in this step. */
+static void put_in_force(ff_crowd *crowd, ff_plan_job *job, double time)
+{
+    ff_footsteps *f = crowd->footsteps;
+    ff_stepper *s = &crowd->steppers[job->slot];
+    bool was_good = job->good;
+    for (uint32_t i = 0; i < f->changed_count && job->good && !crowd->def.footsteps.paper; ++i)
+        job->good = job->kind == FF_JOB_REACT || ff_job_free(crowd, job, f->changed[i], time);
+    if (was_good && !job->good) ++job->counts.conflicting;
+    add_counts(&s->counts, &job->counts);
+    if (!job->good) {
+        /* One that came second may try again at once; what was not found will not be there so soon. */
+        s->retry = was_good ? time : time + RETRY;
+        if (s->pending >> FF_EVENT_SURPRISE & 1u) s->retry = time;
+        return;
+    }
+    if (job->kind == FF_JOB_ENTER)
+        ff_stepper_enter(crowd, job->slot, job, time);
+    else
+        ff_stepper_adopt(crowd, job->slot, job, time);
+    ++s->counts.plans;
+}
+
+static void sort_by_slot(ff_footsteps *f, uint32_t *order)
+{
+    for (uint32_t i = 0; i < f->job_count; ++i) {
+        uint32_t at = i;
+        for (; at > 0 && f->jobs[order[at - 1]].slot > f->jobs[i].slot; --at)
+            order[at] = order[at - 1];
+        order[at] = i;
+    }
+}
+
+double ff_footsteps_plan(ff_crowd *crowd)
+{
+    ff_footsteps *f = crowd->footsteps;
+    double time = ff_crowd_time(crowd);
+    for (uint32_t i = 0; i < f->changed_count; ++i)
+        crowd->steppers[f->changed[i]].changed = 0;
+    f->changed_count = 0;
+    choose_jobs(crowd, time);
+    lane_work work = {crowd};
+    if (crowd->def.tasks)
+        crowd->def.tasks(crowd->def.task_pool, f->lane_count, run_lane, &work);
+    else
+        ff_tasks_for(crowd->own_tasks, f->lane_count, 1, run_lane, &work);
+    sort_by_slot(f, f->order);
+    for (uint32_t i = 0; i < f->job_count; ++i)
+        put_in_force(crowd, &f->jobs[f->order[i]], time);
+    return ff_crowd_clock();
+}

@@ -1,0 +1,149 @@
+/* crowd_react.c - a step is broken off because something that nobody foresaw is in its way (algorithms B.8, event 3).
+ *
+ * Other actions that begin as this one did, on the same foot in the same place, have as much of them behind them: one passes to such a
+ * one where it is, and from its end to a stand. The first that is free of all that is in the way is taken; plans in force count
+ * less than a collision that is about to happen: their owners are told, and plan anew.
+ */
+#include "runtime/core/crowd_footsteps.h"
+#include "runtime/core/crowd_state.h"
+#include "runtime/core/plan_set.h"
+#include "runtime/core/plan_solids.h"
+
+#include <string.h>
+
+#define LATEST 0.6 /* of an action: later on it is finished */
+#define LOOK 1.5   /* s ahead */
+#define MOST 48    /* ways that are tried */
+
+/* How bad: the sooner something is met, the worse; others' plans come after what is really there. */
+typedef struct outcome {
+    double surprise, others; /* s until met; INFINITY: never */
+    double stand;            /* s, until it stands */
+} outcome;
+
+static bool better(const outcome *p, const outcome *q)
+{
+    if (p->surprise != q->surprise) return p->surprise > q->surprise;
+    if (p->others != q->others) return p->others > q->others;
+    return p->stand < q->stand;
+}
+
+/* The step after an action, by its place in the action's list. */
+static ff_plan_step follow(const ff_action_set *set, const ff_plan_step *step, uint32_t k)
+{
+    const ff_set_action *a = &set->actions[step->action];
+    const ff_set_next *next = &set->next[a->first_next + k];
+    ff_vec2 land = next->other ? ff_v2(0.0, 0.0) : ff_v2((double)a->land[0], (double)a->land[1]);
+    return (ff_plan_step){.anchor = ff_add2(step->anchor, ff_from_frame2(ff_fwd2(step->heading), land)),
+                          .heading = step->heading + (double)a->theta,
+                          .start = step->start + (double)a->duration,
+                          .action = next->action};
+}
+
+/* A step, then its way of stopping, then standing. */
+static void stop_after(const ff_action_set *set, const ff_plan_step *step, const ff_plan_step *from,
+                       const ff_set_stop *stop, ff_plan *out)
+{
+    memset(out, 0, sizeof *out);
+    out->from = *from;
+    out->steps[out->count++] = *step;
+    for (int i = 0; stop && i < 2 && stop->next[i] != FF_SET_NO_STOP; ++i) {
+        out->steps[out->count] = follow(set, &out->steps[out->count - 1], stop->next[i]);
+        ++out->count;
+    }
+    ff_plan_step last = out->steps[out->count - 1];
+    last.start += (double)set->actions[last.action].duration;
+    last.hold = 1;
+    out->steps[out->count++] = last;
+    out->own = 0;
+    out->stop = out->count - 1;
+}
+
+static outcome judge(const ff_plan_world *world, double time, const ff_plan_job *job)
+{
+    outcome out = {INFINITY, INFINITY, job->plan.steps[job->plan.count - 1].start - time};
+    double when;
+    for (uint32_t i = 0; i < world->shape_count; ++i)
+        if (ff_track_meets(&job->track, time, LOOK, &world->shapes[i], ff_v2(0.0, 0.0), 0.0, &when))
+            out.surprise = ff_min(out.surprise, when - time);
+    for (uint32_t i = 0; i < world->walker_count; ++i) {
+        const ff_walker *walker = &world->walkers[i];
+        ff_shape disc = {.centre = walker->position, .radius = walker->radius, .high = 2.0};
+        if (ff_track_meets(&job->track, time, LOOK, &disc, walker->velocity, 0.0, &when))
+            out.surprise = ff_min(out.surprise, when - time);
+    }
+    if (ff_solids_hit(world->solids, job->track.origin, 10.0, job->track.origin, job->track.knots,
+                      job->track.count, 0.0))
+        out.surprise = ff_min(out.surprise, out.stand);
+    for (uint32_t i = 0; i < world->track_count; ++i)
+        if (ff_track_conflict(&job->track, world->tracks[i], time, 0.0, &when))
+            out.others = ff_min(out.others, when - time);
+    return out;
+}
+
+typedef struct ways {
+    const ff_crowd *crowd;
+    const ff_plan_world *world;
+    ff_plan_job *best; /* what is kept */
+    outcome outcome;
+    double time;
+    uint32_t slot, tried;
+    bool found;
+} ways;
+
+/* Try a step with each of its ways of stopping. */
+static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from, bool cut)
+{
+    const ff_action_set *set = w->crowd->footsteps->actions;
+    const ff_set_action *a = &set->actions[step->action];
+    bool stands = (a->flags & FF_SET_TO_STANDING) != 0;
+    uint32_t count = stands ? 1 : a->stop_count;
+    for (uint32_t k = 0; k < count && w->tried < MOST; ++k, ++w->tried) {
+        ff_plan_job job;
+        job.slot = w->slot;
+        stop_after(set, step, from, stands ? NULL : &set->stops[a->first_stop + k], &job.plan);
+        ff_plan_track(set, &job.plan, w->time, &job.track);
+        outcome result = judge(w->world, w->time, &job);
+        if (w->found && !better(&result, &w->outcome)) continue;
+        w->found = true;
+        w->outcome = result;
+        w->best->plan = job.plan;
+        w->best->track = job.track;
+        w->best->kind = cut ? FF_JOB_REACT : FF_JOB_PLAN;
+    }
+}
+
+bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world *world, double time,
+                      ff_plan_job *job)
+{
+    const ff_stepper *s = &crowd->steppers[slot];
+    const ff_action_set *set = crowd->footsteps->actions;
+    const ff_plan_step *now = &s->plan.steps[s->at], *from = s->at > 0 ? now - 1 : &s->plan.from;
+    if (now->hold) return false;
+    ways w = {.crowd = crowd, .world = world, .best = job, .time = time, .slot = slot};
+    /* What the plan in force, or the one just found, would meet. */
+    ff_plan_job keep = {
+        .slot = slot, .plan = job->good ? job->plan : s->plan, .track = job->good ? job->track : s->track};
+    w.outcome = judge(world, time, &keep);
+    w.found = true;
+    if (w.outcome.surprise == INFINITY) return false;
+    outcome old = w.outcome;
+    try_step(&w, now, from, false);
+    double done = (time - now->start) / (double)set->actions[now->action].duration;
+    const ff_set_action *before = &set->actions[from->action];
+    for (uint32_t k = 0; k < before->step_count && done < LATEST; ++k) {
+        const ff_set_next *next = &set->next[before->first_next + k];
+        const ff_set_action *b = &set->actions[next->action];
+        if (next->action == now->action || b->support != set->actions[now->action].support) continue;
+        ff_plan_step step = *now;
+        step.action = next->action;
+        step.start = time - done * (double)b->duration;
+        try_step(&w, &step, from, true);
+    }
+    if (!better(&w.outcome, &old)) return false;
+    ff_track_bounds(&job->track, &job->low, &job->high);
+    job->target = ff_stepper_target(crowd, slot);
+    job->good = 1;
+    job->counts.reactions = job->kind == FF_JOB_REACT;
+    return true;
+}
