@@ -9,6 +9,8 @@
 static const ff_subcommand benches[] = {
     {"table1", "collisions and smoothness of MCN, ORCA and SF in three crossing crowds (FbCrowd, Table 1)",
      ff_bench_table1_main},
+    {"fig6", "what a whole person costs on one core, in crowds of 40 to 20,000 (FbCrowd, Figure 6)",
+     ff_bench_fig6_main},
     {"fig7", "everyone to the other side of a circle, by MCN, ORCA, SF and Detour (FbCrowd, Figure 7)",
      ff_bench_fig7_main},
     {"synthesis", "what a pose costs: four motions blended, matrices of all joints, both legs' IK",

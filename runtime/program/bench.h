@@ -9,6 +9,7 @@
 /* argv starts after the word "bench". Returns the exit status; so do the benches, which start after their names. */
 int ff_bench_main(int argc, char **argv);
 int ff_bench_table1_main(int argc, char **argv);
+int ff_bench_fig6_main(int argc, char **argv);
 int ff_bench_fig7_main(int argc, char **argv);
 int ff_bench_synthesis_main(int argc, char **argv);
 int ff_bench_walk_main(int argc, char **argv);

@@ -25,6 +25,13 @@ table1_compares_the_methods() {
         [ "$(wc -l <"$work/table1/table1.csv")" -eq 11 ] && [ -s "$work/table1/table1.png" ] &&
         has "$work/table1.json" '"name": "x2"' '"mcn"' '"orca"' '"sf"' A_route A_raw deepest_m '"arrived": 30' last_s
 }
+fig6_shares_out_what_whole_people_cost() {
+    run 0 "$crowd" bench fig6 --pack "$builtin" --agents 50 --quiet --out "$work/fig6" --json "$work/fig6.json" &&
+        silent err || return 1
+    has "$work/out" MCN ORCA SF "at 30 updates" && cmp "$work/fig6.json" "$work/fig6/fig6.json" &&
+        [ "$(wc -l <"$work/fig6/fig6.csv")" -ge 4 ] && [ -s "$work/fig6/fig6.png" ] &&
+        has "$work/fig6.json" '"agents": 50' us_per_agent us_navigation us_synthesis us_coupling '"orca"' '"sf"'
+}
 synthesis_measures_poses_with_simd_and_without() {
     run 0 "$crowd" bench synthesis --pack "$builtin" --characters 20 --repeats 2 --quiet --out "$work/synthesis" \
         --json "$work/synthesis.json" && silent err || return 1
@@ -41,6 +48,7 @@ mistakes_leave_with_2_and_name_the_way_on() {
 
 test_that "fig7 writes its table, files and pictures" fig7_writes_table_files_and_pictures
 test_that "table1 compares the methods" table1_compares_the_methods
+test_that "fig6 shares out what whole people cost" fig6_shares_out_what_whole_people_cost
 test_that "synthesis measures poses with SIMD and without" synthesis_measures_poses_with_simd_and_without
 test_that "mistakes leave with 2 and name the way on" mistakes_leave_with_2_and_name_the_way_on
 finish
