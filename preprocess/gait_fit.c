@@ -25,18 +25,29 @@ typedef struct foot_sample {
     double ball[3], yaw, pitch;
 } foot_sample;
 
+/* A runner's foot swings past the vertical, where yaw and pitch go over to the other side of the same rotation: yaw jumps by
+ * half a turn, and pitch turns back. Followed is the pitch, beyond a right angle. */
+static ff_pack_foot unfolded(const ff_pack_foot *at)
+{
+    ff_pack_foot out = *at;
+    if (fabs((double)at->yaw) <= 0.5 * FF_PI) return out;
+    out.yaw = (float)ff_wrap((double)at->yaw + FF_PI);
+    out.pitch = (float)((at->pitch < 0.0f ? -FF_PI : FF_PI) - (double)at->pitch);
+    return out;
+}
+
 static foot_sample foot_at(const ff_example *e, int foot, double phase)
 {
     int n = e->frame_count;
     double frame = (phase - floor(phase)) * n, t = frame - floor(frame), side = foot ? -1.0 : 1.0;
-    const ff_pack_foot *p = &e->feet[2 * ((int)frame % n) + foot],
-                       *q = &e->feet[2 * (((int)frame + 1) % n) + foot];
+    const ff_pack_foot p = unfolded(&e->feet[2 * ((int)frame % n) + foot]),
+                       q = unfolded(&e->feet[2 * (((int)frame + 1) % n) + foot]);
     foot_sample out;
     for (int i = 0; i < 3; ++i)
-        out.ball[i] = ff_lerp((double)p->ball[i], (double)q->ball[i], t);
+        out.ball[i] = ff_lerp((double)p.ball[i], (double)q.ball[i], t);
     out.ball[1] *= side;
-    out.yaw = side * ((double)p->yaw + ff_wrap((double)q->yaw - (double)p->yaw) * t);
-    out.pitch = ff_lerp((double)p->pitch, (double)q->pitch, t);
+    out.yaw = side * ((double)p.yaw + ff_wrap((double)q.yaw - (double)p.yaw) * t);
+    out.pitch = ff_lerp((double)p.pitch, (double)q.pitch, t);
     return out;
 }
 
