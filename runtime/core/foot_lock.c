@@ -122,29 +122,37 @@ void ff_foot_hold(const ff_foot_scene *scene, ff_gait_foot *state, int foot, dou
     state->now.height += heel_rise(&scene->space->body, foot, state->pitch);
 }
 
-void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing)
+double ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing)
 {
     double start, length;
     ff_blend_lock(scene->space, scene->blend, foot, &start, &length);
+    /* The release was a moment ago, within this step: from there the swing leads on. */
+    double release = scene->phase - ff_max(phase_to(start, scene->phase) - length, 0.0);
+    double since = ff_phase_duration(scene->space, scene->blend, release, scene->phase) / scene->tempo;
+    if (since > scene->dt) { /* it waited for the other foot */
+        release = scene->phase;
+        since = 0.0;
+    }
     state->planted = 0;
     state->stood = ff_max(standing, 1.0 - ff_smooth((scene->tempo - STOOD_TEMPO) / STOOD_TEMPO));
     state->stood = ff_max(state->stood, ff_foot_closing(scene->rates));
     double pitch = state->pitch;
-    ff_foot_hold(scene, state, foot, standing); /* the offsets below are between things of one moment */
+    ff_foot_hold(scene, state, foot, standing);
     state->pitch =
         ff_lerp(state->pitch, pitch, state->stood); /* the clock of a first step has just jumped to it */
     state->from_pitch = state->pitch - ff_sample_foot(scene->space, scene->cursor, foot).pitch;
-    state->from = subtract(state->now, ff_foot_of_clip(scene, foot));
-    state->slope = standing_slope(clip_foot_speed(scene, foot, scene->phase, 0.0));
+    state->from = subtract(state->now, clip_foot_later(scene, foot, release, -since));
+    state->slope = standing_slope(clip_foot_speed(scene, foot, release, -since));
     /* The yaw of a foot on its toes means little, so in swing the clip's is not followed: it leads from lock to lock
      * in the frame of the body. */
-    state->from.yaw = ff_wrap(state->now.yaw - scene->heading);
+    state->from.yaw = ff_wrap(state->now.yaw - (scene->heading - scene->rates.turn * since));
     state->slope.yaw = -scene->rates.turn;
     state->left = state->now;
     state->left_pitch = state->pitch;
     state->elapsed = 0.0;
     state->progress = 0.0;
     state->phase_left = phase_to(scene->phase, start);
+    return since;
 }
 
 static double hermite(double s, double from, double slope_from, double to, double slope_to)

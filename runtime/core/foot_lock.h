@@ -35,8 +35,9 @@ void ff_foot_neutral(const ff_foot_scene *scene, int foot, double time, ff_footh
 /* 1 for a body at rest, whose steps only close its feet, to 0 for one that walks. */
 double ff_foot_closing(ff_rates rates);
 
-/* The foot leaves the ground: the offset it has from the clip's foot starts the swing. */
-void ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
+/* The foot leaves the ground: the offset it has from the clip's foot starts the swing. Returns how long ago (s), within this
+ * step, that was. */
+double ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
 
 /* The foot lands and stays. */
 void ff_foot_land(ff_gait_foot *state, double ball_rest);

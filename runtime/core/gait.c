@@ -211,11 +211,12 @@ static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
 {
     ff_gait_foot *state = &gait->foot[foot];
     double flat = ff_smooth(gait->stand / SETTLED); /* who may step again stands on flat feet */
-    if (state->planted && gait->mode == FF_GAIT_STEP && time_to_lift(scene, gait, foot)) {
-        ff_foot_lift(scene, state, foot, flat); /* where it stands: it moves from the next step on */
-    } else if (state->planted) {
+    bool lifts = state->planted && gait->mode == FF_GAIT_STEP && time_to_lift(scene, gait, foot);
+    ff_foot_scene part = *scene;
+    if (lifts) part.dt = ff_foot_lift(scene, state, foot, flat); /* the rest of this step is in the air */
+    if (state->planted) {
         ff_foot_hold(scene, state, foot, flat);
-    } else if (ff_foot_swing(scene, state, &gait->foot[1 - foot], foot)) {
+    } else if (!(lifts && part.dt <= 0.0) && ff_foot_swing(&part, state, &gait->foot[1 - foot], foot)) {
         ff_foot_land(state, scene->space->body.ball_rest);
         ff_foot_hold(scene, state, foot, flat);
     }
