@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+/* Thorax to head, slow walkers, 99th percentile of all (gait facts): people look about, and walkers made by formula do not. */
+#define HEAD_SPEED (91.0 * FF_DEG)
 #define STILL (60.0 * FF_DEG) /* rad/s: a joint that is never faster is not really moved in the database */
 #define MIDDLE_FROM 0.35      /* of the swing: mid swing */
 #define MIDDLE_TO 0.65
@@ -65,6 +67,8 @@ static ff_status learn_speeds(const ff_pack *pack, ff_gait_standard *standard, f
         standard->as_bone[j] = fastest[j] < STILL;
         standard->fastest[j] = ff_max(standard->as_bone[j] ? fastest[count + j] : fastest[j], STILL);
     }
+    for (int j = FF_JOINT_NECK; j <= FF_JOINT_HEAD; ++j)
+        standard->fastest[j] = ff_max(standard->fastest[j], HEAD_SPEED);
     return status;
 }
 
