@@ -3,11 +3,14 @@
 #ifndef FF_PLAN_GUIDE_H
 #define FF_PLAN_GUIDE_H
 
+#include "runtime/core/plan_field.h"
 #include "runtime/core/plan_set.h"
 
 typedef struct ff_guide {
     const ff_pack_reach *reach; /* or NULL */
-    float goal[2];              /* m, from the search's origin */
+    const ff_field *field;      /* or NULL */
+    ff_vec2 origin;
+    float goal[2]; /* m, from the search's origin */
     float radius, rate;
     float nearer; /* J/kg that the goal's own radius saves over the table's */
 } ff_guide;
@@ -17,6 +20,8 @@ static inline ff_guide ff_guide_make(const ff_action_set *set, const ff_plan_goa
 {
     float wider = (float)goal->radius - FF_REACH_RADIUS;
     return (ff_guide){.reach = table ? set->reach : NULL,
+                      .field = goal->field,
+                      .origin = origin,
                       .goal = {(float)(goal->at.a - origin.a), (float)(goal->at.b - origin.b)},
                       .radius = (float)goal->radius,
                       .rate = set->rate,
@@ -56,9 +61,18 @@ static inline float ff_guide_cost(const ff_guide *guide, const float root[2], fl
     float distance = sqrtf(a * a + b * b), left = distance - guide->radius;
     if (!(left > 0.0f)) return 0.0f;
     float straight = left * guide->rate;
-    if (!guide->reach) return straight;
-    float reach = ff_guide_reach(guide, a, b, distance, cosine, sine, last);
-    return reach > straight ? reach : straight;
+    float cost = straight;
+    if (guide->reach) {
+        float reach = ff_guide_reach(guide, a, b, distance, cosine, sine, last);
+        cost = reach > cost ? reach : cost;
+    }
+    if (guide->field) {
+        double far =
+            ff_field_distance(guide->field, ff_add2(guide->origin, ff_v2((double)root[0], (double)root[1])));
+        float round = ((float)far - guide->radius) * guide->rate;
+        cost = round > cost ? round : cost;
+    }
+    return cost;
 }
 
 #endif

@@ -18,13 +18,19 @@ ff_limits ff_limits_of(float margin)
 
 float ff_knot_radius(const ff_knot *knot)
 {
-    float most = ff_collider_radius[FF_COLLIDER_ROOT];
+    float most = 0.0f; /* of those of each radius: head, hands, feet */
+    float limit[3] = {0.0f, 0.0f, 0.0f};
+    static const int of[FF_COLLIDER_ROOT] = {0, 1, 1, 2, 2};
     for (int i = 0; i < FF_COLLIDER_ROOT; ++i) {
         float a = knot->a[i] - knot->a[FF_COLLIDER_ROOT], b = knot->b[i] - knot->b[FF_COLLIDER_ROOT];
-        float out = sqrtf(a * a + b * b) + ff_collider_radius[i];
+        float square = a * a + b * b;
+        limit[of[i]] = square > limit[of[i]] ? square : limit[of[i]];
+    }
+    for (int i = 0; i < 3; ++i) {
+        float out = sqrtf(limit[i]) + ff_collider_radius[2 * i];
         most = out > most ? out : most;
     }
-    return most;
+    return most > ff_collider_radius[FF_COLLIDER_ROOT] ? most : ff_collider_radius[FF_COLLIDER_ROOT];
 }
 
 /* Bit k: collider i of mine and k of theirs come nearer than their limit. */

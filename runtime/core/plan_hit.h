@@ -23,14 +23,19 @@ static inline float ff_nearest_pass(float pa, float pb, float da, float db)
     return a * a + b * b;
 }
 
-/* Do the roots, mine from x0 to x1 and theirs from y0 to y1 (whose origin is at (a, b) of mine), come within reach? */
+/* Do the roots, mine from x0 to x1 and theirs from y0 to y1 (whose origin is at (a, b) of mine), come within reach? Most do not,
+ * which is seen without a division. */
 static inline bool ff_roots_near(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
                                  float a, float b, float reach)
 {
     enum { R = FF_COLLIDER_ROOT };
     float pa = y0->a[R] + a - x0->a[R], pb = y0->b[R] + b - x0->b[R];
     float qa = y1->a[R] + a - x1->a[R], qb = y1->b[R] + b - x1->b[R];
-    return ff_nearest_pass(pa, pb, qa - pa, qb - pb) <= reach * reach;
+    float da = qa - pa, db = qb - pb, p = pa * pa + pb * pb, q = qa * qa + qb * qb;
+    float nearer = p < q ? p : q;
+    if (nearer <= reach * reach) return true;
+    float pass = reach + 0.5f * ((da < 0.0f ? -da : da) + (db < 0.0f ? -db : db));
+    return nearer <= pass * pass && ff_nearest_pass(pa, pb, da, db) <= reach * reach;
 }
 
 /* Do any two colliders come nearer than the limits, and are they at a height? */

@@ -273,7 +273,7 @@ static void stand_at(const search *s, const node *n, ff_stance *out)
                     n->sine * a->cosine - n->cosine * a->sine, out);
 }
 
-static const ff_stance *stance_of(search *s, uint32_t index)
+static ff_stance *stance_of(search *s, uint32_t index)
 {
     if (s->open_stance != index) {
         stand_at(s, &s->memory->nodes[index], &s->memory->stance);
@@ -295,7 +295,7 @@ static uint32_t add_node(search *s, const node *n)
 static bool is_free(search *s, node *n)
 {
     if (n->flags & TESTED) return true;
-    const ff_stance *stance = stance_of(s, n->parent);
+    ff_stance *stance = stance_of(s, n->parent);
     ++s->result.tested;
     bool free_way;
     float more = 0.0f;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 static const float RUN_FACTOR = 1.3f, PLATFORM_COST = 150.0f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
+static const float SLOW = 0.6f, LINGER = 2.0f;
 static const double CROSS = -20.0 * FF_DEG;
 static const float BLEND = 0.2f;                    /* s, algorithms B.9 */
 static const float FLAT = 0.05f, LEVEL = 0.03f;     /* m: heights and rises that pass for level ground */
@@ -51,6 +52,8 @@ float ff_action_cost(const ff_pack_action *r)
     if (r->mode == FF_MODE_RUN) cost *= RUN_FACTOR;
     if (!(r->flags & FF_ACTION_ALPHA_UNDEFINED) && (double)r->alpha < CROSS) cost *= CROSS_FACTOR;
     if (ff_action_is_platform(r)) cost += PLATFORM_COST;
+    float still = 1.0f - r->speed / SLOW;
+    if (still > 0.0f) cost += still * LINGER * (float)FF_E_S * r->duration;
     return cost;
 }
 
@@ -106,7 +109,6 @@ static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
     if (r->flags & FF_ACTION_TO_STANDING) a->flags |= FF_SET_TO_STANDING;
     if (r->flags & FF_ACTION_FROM_STANDING) a->flags |= FF_SET_FROM_STANDING;
     if (ff_action_is_platform(r)) a->flags |= FF_SET_REACTIVE;
-    if (!ff_action_is_platform(r) && a->duration > set->longest) set->longest = a->duration;
     take_samples(set, a, r);
 }
 
@@ -174,6 +176,7 @@ static void measure_next(ff_action_set *set)
             float eb = a->sine * b->root_end[0] + a->cosine * b->root_end[1] - rb;
             float ca = a->cosine * b->circle[0] - a->sine * b->circle[1] - ra;
             float cb = a->sine * b->circle[0] + a->cosine * b->circle[1] - rb;
+            a->next_longest = fmaxf(a->next_longest, b->duration);
             float moved = sqrtf(ea * ea + eb * eb);
             if (moved > 1e-3f) set->rate = fminf(set->rate, next->cost / moved);
             a->next_reach = fmaxf(a->next_reach, sqrtf(ca * ca + cb * cb) + b->circle[2] + next->jump);

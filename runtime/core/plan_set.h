@@ -29,6 +29,7 @@ typedef struct ff_set_action {
     float theta, cosine, sine;
     float blend;                /* s */
     float circle[3];            /* a, b, radius: in S0, holds all colliders at all times */
+    float next_longest;         /* s, of any successor */
     float next_reach;           /* m: from the root at the end, how far any collider of any successor gets */
     uint32_t first_knot, knots; /* into samples, evenly from start to end */
     uint32_t first_next, next_count, step_count; /* into next; the first step_count are no jumps and ducks */
@@ -66,7 +67,6 @@ struct ff_action_set {
     uint32_t next_total, knot_total, stop_total;
     uint32_t next_most; /* successors of one action */
     float rate;         /* J/kg per m: no sequence of actions moves the root further for less */
-    float longest;      /* s, of any action that is no jump */
 };
 
 /* Colliders of an action at t seconds from its start, in S0. */

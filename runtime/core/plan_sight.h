@@ -1,5 +1,5 @@
-/* plan_sight.h - what one search sees, and whether an action, or standing, is free of it. All times count knots from the
- * search's first one; all places are relative to where it starts. */
+/* plan_sight.h - what one search sees (plan_sight.c), and whether an action, or standing, is free of it (plan_stance.c). All
+ * times count knots from the search's first one; all places are relative to where it starts. */
 #ifndef FF_PLAN_SIGHT_H
 #define FF_PLAN_SIGHT_H
 
@@ -8,6 +8,12 @@
 #include "runtime/core/plan_solids.h"
 
 enum { FF_SIGHT_MAX = 64, FF_SIGHT_MOVING_MAX = 64, FF_SIGHT_KNOTS = 32 };
+enum { FF_SIGHT_CHUNK = 4, FF_SIGHT_CHUNKS = FF_TRACK_KNOTS_MAX / FF_SIGHT_CHUNK }; /* knots */
+
+/* Room that all those seen take up between knots [4 c, 4 c + 4]. */
+typedef struct ff_sight_rooms {
+    float low_a[FF_SIGHT_MAX], low_b[FF_SIGHT_MAX], high_a[FF_SIGHT_MAX], high_b[FF_SIGHT_MAX];
+} ff_sight_rooms;
 
 /* Another agent's track. */
 typedef struct ff_sight_track {
@@ -37,6 +43,7 @@ typedef struct ff_sight {
     ff_limits limits, stand_limits;
     uint32_t count, mover_count, shape_count;
     ff_sight_track seen[FF_SIGHT_MAX];
+    ff_sight_rooms rooms[FF_SIGHT_CHUNKS];
     ff_sight_mover mover[FF_SIGHT_MOVING_MAX];
     ff_solid shape[FF_SIGHT_MAX];
     float cost, cost_within; /* proximity */
@@ -59,17 +66,26 @@ typedef struct ff_stance {
     float moved;  /* m, the furthest that any collider moves from tail to end */
     /* who is near enough for any successor to meet */
     uint32_t near_count, mover_count;
-    uint16_t near[FF_SIGHT_MAX], mover[FF_SIGHT_MOVING_MAX];
-    float room[FF_SIGHT_MAX][4]; /* of those near, over all successors */
+    uint8_t near[FF_SIGHT_MAX], mover[FF_SIGHT_MOVING_MAX];
     bool solids;
 } ff_stance;
 
-/* Fill in everything after `hold`. before: the anchor and heading that the action began with. */
+/* Fill in everything after `hold`; the heading is the one that the action began with. */
 void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine, ff_stance *stance);
+
+/* Room of one that is seen, as far as it is known; c: any chunk, those past the last one stand. */
+static inline bool ff_sight_room_near(const ff_sight *sight, uint32_t c, uint32_t who, float a, float b,
+                                      float radius)
+{
+    const ff_sight_rooms *r = &sight->rooms[c < FF_SIGHT_CHUNKS ? c : FF_SIGHT_CHUNKS - 1];
+    float da = a < r->low_a[who] ? r->low_a[who] - a : (a > r->high_a[who] ? a - r->high_a[who] : 0.0f);
+    float db = b < r->low_b[who] ? r->low_b[who] - b : (b > r->high_b[who] ? b - r->high_b[who] : 0.0f);
+    return da * da + db * db <= radius * radius;
+}
 
 /* Is a successor (of set->next) free of everything, up to the knot at or before its end? *cost (may be NULL) gets what
  * going near others costs. */
-bool ff_stance_free(const ff_sight *sight, const ff_stance *stance, const ff_set_next *next, float *cost);
+bool ff_stance_free(const ff_sight *sight, ff_stance *stance, const ff_set_next *next, float *cost);
 
 /* Is waiting for a time, or (INFINITY) standing for ever? */
 bool ff_stance_waits(const ff_sight *sight, const ff_stance *stance, float seconds);
