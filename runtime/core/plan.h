@@ -188,8 +188,9 @@ void ff_field_destroy(ff_field *field); /* NULL is fine */
 
 /* What a search sees. Everything is borrowed. */
 typedef struct ff_plan_world {
-    const ff_solids *solids;       /* or NULL */
-    const ff_track *const *tracks; /* published plans of others; not the agent's own */
+    const ff_solids *solids; /* or NULL */
+    /* Published plans of others, not the agent's own: all that can be met, who may be up to 20 m away now. */
+    const ff_track *const *tracks;
     uint32_t track_count;
     const ff_mover *movers;
     uint32_t mover_count;
@@ -203,19 +204,25 @@ typedef struct ff_plan_world {
 
 typedef struct ff_plan_goal {
     ff_vec2 at;
-    double radius;         /* m, within which the root must come; default 0.35 */
-    double heading;        /* rad, wanted if tolerance < pi */
-    double tolerance;      /* rad */
-    double latest;         /* s, absolute: not to be reached later; INFINITY */
+    double radius;    /* m, within which the root must come; default 0.35 */
+    double heading;   /* rad, wanted if tolerance < pi */
+    double tolerance; /* rad */
+    double latest;    /* s, absolute: not to be reached later; INFINITY */
+    uint32_t stand;   /* 1 (default): it is reached by standing there; 0: a waypoint, to walk past */
+    uint32_t reserved;
     const ff_field *field; /* made for `at`, or NULL */
 } ff_plan_goal;
 
+/* A second of waiting costs so many times the energy of standing (footstep study, section 4.4); so does one that an action
+ * takes longer than a walk over its way would, or people would step about on the spot instead. */
+#define FF_PLAN_WAIT 3.0
+
 typedef struct ff_plan_options {
-    uint32_t nodes; /* how many may be expanded; default 200 */
+    uint32_t nodes; /* how many may be expanded; default 300 */
     double
         seconds; /* wall clock on top of it; 0 (default) = none, then results depend on the arguments alone */
     uint32_t horizon;      /* actions ahead, default 12, at most 14; 1 = purely reactive */
-    double time_horizon;   /* s: who gets so far has done enough; default 3.5, 0 = none */
+    double time_horizon;   /* s: who gets so far has done enough; default 5, 0 = none */
     double inflation;      /* of the heuristic in the first round; default 2 */
     double inflation_step; /* less of it in each further round, down to 1; 0 = one round only. Default 0.5 */
     double margin;         /* m, to keep from others on top of radii; default 0.05 */

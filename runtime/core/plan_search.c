@@ -365,6 +365,7 @@ static bool at_goal(const search *s, const node *n)
     float root[2];
     root_of(s, n, root);
     if (!ff_guide_reached(&s->guide, root)) return false;
+    if (s->goal->stand && !(s->set->actions[n->action].flags & FF_SET_TO_STANDING)) return false;
     if ((double)n->time > s->goal->latest - (double)s->memory->sight.first_knot * FF_TRACK_STEP) return false;
     return s->goal->tolerance >= FF_PI ||
            fabs(ff_wrap((double)n->heading - s->goal->heading)) <= s->goal->tolerance;
@@ -664,16 +665,16 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
 
 ff_plan_options ff_plan_options_default(void)
 {
-    return (ff_plan_options){.nodes = 200,
+    return (ff_plan_options){.nodes = 300,
                              .horizon = 12,
-                             .time_horizon = 3.5,
+                             .time_horizon = 5.0,
                              .inflation = 2.0,
                              .inflation_step = 0.5,
                              .margin = 0.05,
                              .stand_margin = 0.03,
-                             .wait = 3.0,
+                             .wait = FF_PLAN_WAIT,
                              .proximity = 0.3,
-                             .view = 9.0,
+                             .view = 20.0,
                              .view_count = FF_SIGHT_MAX,
                              .lazy = 1,
                              .safe = 1,
@@ -683,5 +684,5 @@ ff_plan_options ff_plan_options_default(void)
 
 ff_plan_goal ff_plan_goal_at(ff_vec2 at)
 {
-    return (ff_plan_goal){.at = at, .radius = 0.35, .tolerance = FF_PI, .latest = INFINITY};
+    return (ff_plan_goal){.at = at, .radius = 0.35, .tolerance = FF_PI, .latest = INFINITY, .stand = 1};
 }

@@ -7,7 +7,6 @@
 #include <string.h>
 
 static const float RUN_FACTOR = 1.3f, PLATFORM_COST = 150.0f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
-static const float SLOW = 0.6f, LINGER = 2.0f;
 static const double CROSS = -20.0 * FF_DEG;
 static const float BLEND = 0.2f;                    /* s, algorithms B.9 */
 static const float FLAT = 0.05f, LEVEL = 0.03f;     /* m: heights and rises that pass for level ground */
@@ -52,8 +51,8 @@ float ff_action_cost(const ff_pack_action *r)
     if (r->mode == FF_MODE_RUN) cost *= RUN_FACTOR;
     if (!(r->flags & FF_ACTION_ALPHA_UNDEFINED) && (double)r->alpha < CROSS) cost *= CROSS_FACTOR;
     if (ff_action_is_platform(r)) cost += PLATFORM_COST;
-    float still = 1.0f - r->speed / SLOW;
-    if (still > 0.0f) cost += still * LINGER * (float)FF_E_S * r->duration;
+    float lost = r->duration * (1.0f - r->speed / FF_WALK_SPEED); /* s */
+    if (lost > 0.0f) cost += lost * (float)((FF_PLAN_WAIT - 1.0) * FF_E_S);
     return cost;
 }
 

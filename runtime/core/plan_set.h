@@ -5,8 +5,9 @@
 
 #include "runtime/core/plan.h"
 
-#define FF_E_S 2.23 /* J/(kg s): of standing (algorithms B.2) */
-#define FF_E_W 1.26 /* J s/(kg m2) */
+#define FF_E_S 2.23         /* J/(kg s): of standing (algorithms B.2) */
+#define FF_E_W 1.26         /* J s/(kg m2) */
+#define FF_WALK_SPEED 1.33f /* m/s: the cheapest, sqrt(FF_E_S / FF_E_W) */
 
 enum {
     FF_SET_TO_STANDING = 1,   /* ends in standing */
@@ -94,7 +95,7 @@ static inline float ff_set_blend(const ff_set_action *action, float t)
 }
 
 /* Of the pack's records, for whoever prepares plans: can it be walked on level ground; is it a jump or a duck; its class; what
- * it costs, J/kg with penalties (algorithms B.2). */
+ * it costs, J/kg with penalties (algorithms B.2) and with the price of the time that it loses over walking. */
 bool ff_action_is_usable(const ff_pack_action *record);
 bool ff_action_is_platform(const ff_pack_action *record);
 ff_action_class ff_action_class_of(const ff_pack_action *record);

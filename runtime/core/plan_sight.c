@@ -4,36 +4,45 @@
 
 /* ------------------------------------------------------------------------------------------------------ opening */
 
-/* How near the room that a track takes up from a knot on comes to the start. */
-static float nearest_room(const ff_track *track, int64_t from, float a, float b)
+static const double STOPPED = 3.0;               /* s after the time horizon, at the latest, plans stand */
+static const float FASTEST = 1.7f, REACH = 0.8f; /* m/s, m: of somebody who walks */
+
+/* How near a track comes to the start, as a share of how far one who walks from there may be by then, or when the search ends
+ * at the latest (knots). More than 1: the two cannot meet. */
+static float nearest_share(const ff_track *track, int64_t shift, int64_t end, float a, float b)
 {
-    int64_t last = (int64_t)track->count - 1, k = from < 0 ? 0 : (from > last ? last : from);
+    int64_t last = (int64_t)track->count - 1, k = shift < 0 ? -shift : 0;
     float least = INFINITY;
-    for (int64_t c = k / FF_TRACK_CHUNK; c <= last / FF_TRACK_CHUNK; ++c) {
+    for (int64_t c = (k < last ? k : last) / FF_TRACK_CHUNK; c <= last / FF_TRACK_CHUNK; ++c) {
         const ff_track_room *r = &track->room[c];
         float da = -a < r->low_a ? r->low_a + a : (-a > r->high_a ? -a - r->high_a : 0.0f);
         float db = -b < r->low_b ? r->low_b + b : (-b > r->high_b ? -b - r->high_b : 0.0f);
-        float distance = da * da + db * db;
-        least = distance < least ? distance : least;
+        int64_t until = (c + 1) * FF_TRACK_CHUNK + shift;
+        if (c == last / FF_TRACK_CHUNK || until > end) until = end;
+        float share = sqrtf(da * da + db * db) / (REACH + FASTEST * (float)FF_TRACK_STEP * (float)until);
+        least = share < least ? share : least;
     }
-    return sqrtf(least);
+    return least;
 }
 
-/* The nearest ones that come near enough, in order of distance, then of the list. Near is where they will be, not only where
- * they are: two who see each other too late have plans that meet (footstep study, section 4.3). */
-static void see_tracks(ff_sight *s, const ff_plan_world *world, double view, uint32_t most)
+/* Those that can be met, the likeliest first, then in order of the list. What counts is where they will be, not where they are: two
+ * who see each other too late have plans that meet (footstep study, section 4.3). */
+static void see_tracks(ff_sight *s, const ff_plan_world *world, const ff_plan_options *options)
 {
-    for (uint32_t i = 0; i < world->track_count; ++i) {
+    uint32_t most = options->view_count < FF_SIGHT_MAX ? options->view_count : FF_SIGHT_MAX;
+    double end =
+        options->time_horizon > 0.0 ? (options->time_horizon + STOPPED) / FF_TRACK_STEP : FF_TRACK_KNOTS_MAX;
+    for (uint32_t i = 0; i < world->track_count && most > 0; ++i) {
         const ff_track *track = world->tracks[i];
         int64_t shift = track->first - s->first_knot;
         ff_vec2 at = ff_sub2(track->origin, s->origin);
-        float distance = nearest_room(track, -shift, (float)at.a, (float)at.b);
-        if (!((double)distance <= view)) continue;
-        if (s->count == most && distance >= s->seen[most - 1].distance) continue;
+        if (!(ff_length2(at) <= options->view)) continue;
+        float share = nearest_share(track, shift, (int64_t)end, (float)at.a, (float)at.b);
+        if (share > 1.0f || (s->count == most && share >= s->seen[most - 1].share)) continue;
         uint32_t place = s->count < most ? s->count++ : most - 1;
-        for (; place > 0 && distance < s->seen[place - 1].distance; --place)
+        for (; place > 0 && share < s->seen[place - 1].share; --place)
             s->seen[place] = s->seen[place - 1];
-        s->seen[place] = (ff_sight_track){track, (float)at.a, (float)at.b, (int32_t)shift, distance};
+        s->seen[place] = (ff_sight_track){track, (float)at.a, (float)at.b, (int32_t)shift, share};
     }
 }
 
@@ -150,8 +159,7 @@ void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const f
     out->cost = (float)options->proximity_cost;
     out->cost_within = (float)options->proximity;
     out->count = out->mover_count = out->shape_count = 0;
-    uint32_t most = options->view_count < FF_SIGHT_MAX ? options->view_count : FF_SIGHT_MAX;
-    if (most > 0) see_tracks(out, world, options->view, most);
+    see_tracks(out, world, options);
     find_rooms(out);
     see_movers(out, world);
     see_walkers(out, world, options->view);

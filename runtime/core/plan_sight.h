@@ -7,7 +7,7 @@
 #include "runtime/core/plan_set.h"
 #include "runtime/core/plan_solids.h"
 
-enum { FF_SIGHT_MAX = 64, FF_SIGHT_MOVING_MAX = 64, FF_SIGHT_KNOTS = 32 };
+enum { FF_SIGHT_MAX = 128, FF_SIGHT_MOVING_MAX = 64, FF_SIGHT_KNOTS = 32 };
 enum { FF_SIGHT_CHUNK = 4, FF_SIGHT_CHUNKS = FF_TRACK_KNOTS_MAX / FF_SIGHT_CHUNK }; /* knots */
 
 /* Room that all those seen take up between knots [4 c, 4 c + 4]. */
@@ -20,7 +20,7 @@ typedef struct ff_sight_track {
     const ff_track *track;
     float a, b;    /* m, of its origin */
     int32_t shift; /* its first knot */
-    float distance;
+    float share;   /* of the way that can be walked to it by then */
 } ff_sight_track;
 
 /* A moving obstacle, or somebody who goes by velocity, knot by knot. */
