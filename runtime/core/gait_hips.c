@@ -49,7 +49,10 @@ void ff_gait_hips(const ff_blend_space *space, const ff_gait *gait, const ff_cur
 
 ff_quat ff_gait_foot_rotation(double yaw, double pitch)
 {
-    return ff_quat_mul(ff_quat_yaw(yaw), ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -pitch));
+    double turn, turned, tip, tipped; /* sines and cosines of half the angles */
+    ff_sincos(0.5 * yaw, &turn, &turned);
+    ff_sincos(-0.5 * pitch, &tip, &tipped);
+    return (ff_quat){turned * tip, turn * tipped, -(turn * tip), turned * tipped};
 }
 
 ff_vec3 ff_gait_ankle(const ff_body_frame *body, int foot, ff_foothold ball, ff_quat rotation)

@@ -74,16 +74,23 @@ static ff_quat foot_rotation(const ff_gait_foot *state, ff_quat clip)
 #define ROLLS (20.0 * FF_DEG) /* pitch of a foot that is up on its toes */
 #define FLIES 0.08            /* of the swing, from where on, and until where before its end, a foot flies */
 
-static void pose_leg(const ff_body_frame *body, const ff_gait_foot *state, int foot, ff_vec3 hips,
-                     ff_quat hips_turn, ff_quat *rotations)
+static ff_leg_target target_of(const ff_gait_foot *state, ff_quat clip)
 {
-    ff_leg leg = ff_leg_of_clip(body, foot, hips, hips_turn, rotations);
     double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
     double swing = state->planted ? 0.0 : state->progress;
     double round = ff_max(ff_smooth(-state->pitch / ROLLS), ff_min(ff_min(swing, 1.0 - swing) / FLIES, 1.0));
-    ff_leg_target target = {
-        state->now, foot_rotation(state, leg.foot), TOE_CLEARANCE * arc, MOST_RAISE, 1.0, swing, round};
-    ff_leg_pose(body, foot, &target, &leg, hips_turn, rotations);
+    return (ff_leg_target){
+        state->now, foot_rotation(state, clip), TOE_CLEARANCE * arc, MOST_RAISE, 1.0, swing, round};
+}
+
+static void pose_legs(const ff_body_frame *body, const ff_gait *gait, ff_vec3 hips, ff_quat *rotations)
+{
+    ff_legs legs;
+    ff_leg_target target[2];
+    ff_legs_of_clip(body, hips, rotations, &legs);
+    for (int foot = 0; foot < 2; ++foot)
+        target[foot] = target_of(&gait->foot[foot], ff_pairq_half(legs.foot, foot));
+    ff_legs_pose(body, target, &legs, rotations);
 }
 
 void ff_gait_idle_pose(const ff_blend_space *space, double idle_time, ff_vec2 position, double heading,
@@ -116,8 +123,7 @@ void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 posi
     sample_joints(space, gait, &cursor, rotations);
     apply_style(space, gait, rotations);
     apply_idle_life(gait, rotations);
-    for (int foot = 0; foot < 2; ++foot)
-        pose_leg(&space->body, &gait->foot[foot], foot, *hips, rotations[FF_JOINT_HIPS], rotations);
+    pose_legs(&space->body, gait, *hips, rotations);
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
         rotations[j] = near_unit(rotations[j]);
 }

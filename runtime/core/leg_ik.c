@@ -22,48 +22,60 @@ double ff_leg_swing_reach(double distance, double leg_length, double share)
 }
 
 /* Part of v at right angles to unit vector line. */
-static ff_vec3 across(ff_vec3 v, ff_vec3 line)
+static ff_pair3 across(ff_pair3 v, ff_pair3 line)
 {
-    return ff_madd3(v, line, -ff_dot3(v, line));
+    return ff_pair3_madd(v, line, -ff_pair3_dot(v, line));
 }
 
-static double inverse(double length)
+/* Bones turned by what takes their old directions to the new ones (both over_length long), then carried along. */
+static ff_pairq turn_bones(ff_pairq bones, ff_pairq carry, ff_pair3 old, ff_pair3 new, ff_pair over_length)
 {
-    return length > 1e-12 ? 1.0 / length : 0.0;
-}
-
-/* The bone turned by what takes its old direction to the new one (both over_length long), then carried along. */
-static ff_quat turn_bone(ff_quat bone, ff_quat carry, ff_vec3 old, ff_vec3 new, double over_length)
-{
-    ff_quat turn = ff_quat_between(ff_scale3(old, over_length), ff_scale3(new, over_length));
-    return ff_quat_mul(carry, ff_quat_mul(turn, bone));
+    ff_pairq turn = ff_pairq_between(ff_pair3_scale(old, over_length), ff_pair3_scale(new, over_length));
+    return ff_pairq_mul(carry, ff_pairq_mul(turn, bones));
 }
 
 /* Knee and shank are laid out about the old line from hip to ankle, and all is carried to the new one at the end. */
-void ff_leg_solve(ff_leg *leg, ff_vec3 hip, ff_vec3 ankle)
+void ff_legs_solve(ff_legs *legs, ff_pair3 hip, ff_pair3 ankle)
 {
-    ff_vec3 thigh = ff_sub3(leg->knee, leg->hip), shank = ff_sub3(leg->ankle, leg->knee);
-    double thigh_length = ff_length3(thigh), shank_length = ff_length3(shank);
-    ff_vec3 old_line = ff_unit3(ff_sub3(leg->ankle, leg->hip)), wanted = ff_sub3(ankle, hip);
-    double distance = ff_length3(wanted);
-    ff_vec3 line = ff_scale3(wanted, inverse(distance));
+    const ff_pair3 forward = {{0.0, 0.0}, {0.0, 0.0}, {1.0, 1.0}};
+    ff_pair3 thigh = ff_pair3_sub(legs->knee, legs->hip), shank = ff_pair3_sub(legs->ankle, legs->knee);
+    ff_pair thigh_length = ff_pair3_length(thigh), shank_length = ff_pair3_length(shank);
+    ff_pair both = thigh_length + shank_length;
+    ff_pair3 old_line = ff_pair3_unit(ff_pair3_sub(legs->ankle, legs->hip)),
+             wanted = ff_pair3_sub(ankle, hip);
+    ff_pair distance = ff_pair3_length(wanted);
+    ff_pair3 line = ff_pair3_scale(wanted, ff_pair_inverse(distance));
 
     /* A nearly straight knee has no side of its own: the front of the thigh helps it out. */
-    ff_vec3 front = ff_quat_rotate(leg->thigh, ff_v3(0.0, 0.0, 1.0));
-    ff_vec3 side = ff_unit3(across(ff_madd3(thigh, front, 0.05 * thigh_length), old_line));
+    ff_pair3 front = ff_pairq_rotate(legs->thigh, forward);
+    ff_pair3 side = ff_pair3_unit(across(ff_pair3_madd(thigh, front, 0.05 * thigh_length), old_line));
 
-    double closest = fabs(thigh_length - shank_length) + 0.05 * (thigh_length + shank_length);
-    distance = ff_max(ff_leg_soft_reach(distance, thigh_length + shank_length), closest);
-    double along =
-        (distance * distance + thigh_length * thigh_length - shank_length * shank_length) / (2.0 * distance);
-    double out = sqrt(ff_max(thigh_length * thigh_length - along * along, 0.0));
+    ff_pair apart = thigh_length - shank_length, closest = ff_pair_max(apart, -apart) + 0.05 * both;
+    distance = ff_pair_of(ff_leg_soft_reach(distance[0], both[0]), ff_leg_soft_reach(distance[1], both[1]));
+    distance = ff_pair_max(distance, closest);
+    ff_pair square = thigh_length * thigh_length;
+    ff_pair along = (distance * distance + square - shank_length * shank_length) / (2.0 * distance);
+    ff_pair out = ff_pair_sqrt(ff_pair_max(square - along * along, ff_pair_of(0.0, 0.0)));
 
-    ff_vec3 new_thigh = ff_madd3(ff_scale3(old_line, along), side, out);
-    ff_vec3 new_shank = ff_sub3(ff_scale3(old_line, distance), new_thigh);
-    ff_quat carry = ff_quat_between(old_line, line);
-    leg->thigh = turn_bone(leg->thigh, carry, thigh, new_thigh, inverse(thigh_length));
-    leg->shank = turn_bone(leg->shank, carry, shank, new_shank, inverse(shank_length));
+    ff_pair3 new_thigh = ff_pair3_madd(ff_pair3_scale(old_line, along), side, out);
+    ff_pair3 new_shank = ff_pair3_sub(ff_pair3_scale(old_line, distance), new_thigh);
+    ff_pairq carry = ff_pairq_between(old_line, line);
+    legs->thigh = turn_bones(legs->thigh, carry, thigh, new_thigh, ff_pair_inverse(thigh_length));
+    legs->shank = turn_bones(legs->shank, carry, shank, new_shank, ff_pair_inverse(shank_length));
+    legs->hip = hip;
+    legs->knee = ff_pair3_add(hip, ff_pairq_rotate(carry, new_thigh));
+    legs->ankle = ff_pair3_madd(hip, line, distance);
+}
+
+void ff_leg_solve(ff_leg *leg, ff_vec3 hip, ff_vec3 ankle)
+{
+    ff_legs legs = {ff_pair3_of(leg->hip, leg->hip),     ff_pair3_of(leg->knee, leg->knee),
+                    ff_pair3_of(leg->ankle, leg->ankle), ff_pairq_of(leg->thigh, leg->thigh),
+                    ff_pairq_of(leg->shank, leg->shank), ff_pairq_of(leg->foot, leg->foot)};
+    ff_legs_solve(&legs, ff_pair3_of(hip, hip), ff_pair3_of(ankle, ankle));
     leg->hip = hip;
-    leg->knee = ff_add3(hip, ff_quat_rotate(carry, new_thigh));
-    leg->ankle = ff_madd3(hip, line, distance);
+    leg->knee = ff_pair3_half(legs.knee, 0);
+    leg->ankle = ff_pair3_half(legs.ankle, 0);
+    leg->thigh = ff_pairq_half(legs.thigh, 0);
+    leg->shank = ff_pairq_half(legs.shank, 0);
 }

@@ -2,13 +2,19 @@
 #ifndef FF_LEG_IK_H
 #define FF_LEG_IK_H
 
-#include "runtime/core/base/maths.h"
+#include "runtime/core/base/pair.h"
 
 /* A leg as the clip has it, in the world: where its joints are and how its bones are turned. */
 typedef struct ff_leg {
     ff_vec3 hip, knee, ankle;
     ff_quat thigh, shank, foot;
 } ff_leg;
+
+/* Both legs of a body, left and right. */
+typedef struct ff_legs {
+    ff_pair3 hip, knee, ankle;
+    ff_pairq thigh, shank, foot;
+} ff_legs;
 
 /* The longest hip to ankle distance that a planted leg is planned with, as a share of its length; the knee is then
  * bent by 13 degrees, as people's are at least (gait facts: 6 to 10). */
@@ -26,5 +32,8 @@ double ff_leg_swing_reach(double distance, double leg_length, double share);
  * it on, carried over with the smallest rotation from the old hip-ankle line to the new one; bones keep their twist.
  * The foot's rotation is left alone. */
 void ff_leg_solve(ff_leg *leg, ff_vec3 hip, ff_vec3 ankle);
+
+/* The same of both legs at once, in little more than the time of one. */
+void ff_legs_solve(ff_legs *legs, ff_pair3 hip, ff_pair3 ankle);
 
 #endif

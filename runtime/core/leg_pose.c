@@ -65,50 +65,79 @@ static ff_quat toes_on_floor(const ff_body_frame *body, const ff_leg_target *tar
     return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), toes);
 }
 
-ff_leg ff_leg_of_clip(const ff_body_frame *body, int foot, ff_vec3 hips, ff_quat hips_turn,
-                      const ff_quat *rotations)
+/* The same joint of both legs. */
+static ff_pairq both_rotations(const ff_quat *rotations, int left)
 {
-    int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
-    ff_leg leg;
-    leg.hip = ff_add3(hips, ff_quat_rotate(hips_turn, body->offset[joint]));
-    leg.thigh = ff_quat_mul(hips_turn, rotations[joint]);
-    leg.knee = ff_add3(leg.hip, ff_quat_rotate(leg.thigh, body->offset[joint + 1]));
-    leg.shank = ff_quat_mul(leg.thigh, rotations[joint + 1]);
-    leg.ankle = ff_add3(leg.knee, ff_quat_rotate(leg.shank, body->offset[joint + 2]));
-    leg.foot = ff_quat_mul(leg.shank, rotations[joint + 2]);
-    return leg;
+    return ff_pairq_of(rotations[left], rotations[left + FF_JOINT_LEG_STRIDE]);
+}
+
+static ff_pair3 both_offsets(const ff_body_frame *body, int left)
+{
+    return ff_pair3_of(body->offset[left], body->offset[left + FF_JOINT_LEG_STRIDE]);
+}
+
+static void put_both(ff_pairq turned, int left, ff_quat *rotations)
+{
+    rotations[left] = ff_pairq_half(turned, 0);
+    rotations[left + FF_JOINT_LEG_STRIDE] = ff_pairq_half(turned, 1);
+}
+
+void ff_legs_of_clip(const ff_body_frame *body, ff_vec3 hips, const ff_quat *rotations, ff_legs *out)
+{
+    ff_pairq turn = ff_pairq_of(rotations[FF_JOINT_HIPS], rotations[FF_JOINT_HIPS]);
+    out->hip =
+        ff_pair3_add(ff_pair3_of(hips, hips), ff_pairq_rotate(turn, both_offsets(body, FF_JOINT_HIP_L)));
+    out->thigh = ff_pairq_mul(turn, both_rotations(rotations, FF_JOINT_HIP_L));
+    out->knee = ff_pair3_add(out->hip, ff_pairq_rotate(out->thigh, both_offsets(body, FF_JOINT_KNEE_L)));
+    out->shank = ff_pairq_mul(out->thigh, both_rotations(rotations, FF_JOINT_KNEE_L));
+    out->ankle = ff_pair3_add(out->knee, ff_pairq_rotate(out->shank, both_offsets(body, FF_JOINT_ANKLE_L)));
+    out->foot = ff_pairq_mul(out->shank, both_rotations(rotations, FF_JOINT_ANKLE_L));
 }
 
 void ff_legs_of_pose(const ff_body_frame *body, ff_vec3 hips, const ff_quat *rotations, ff_vec3 ball[2],
                      ff_quat foot_turn[2])
 {
+    ff_legs legs;
+    ff_legs_of_clip(body, hips, rotations, &legs);
+    ff_pair3 balls =
+        ff_pair3_add(legs.ankle, ff_pairq_rotate(legs.foot, both_offsets(body, FF_JOINT_BALL_L)));
     for (int foot = 0; foot < 2; ++foot) {
-        ff_leg leg = ff_leg_of_clip(body, foot, hips, rotations[FF_JOINT_HIPS], rotations);
-        int joint = FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE;
-        foot_turn[foot] = leg.foot;
-        ball[foot] = ff_add3(leg.ankle, ff_quat_rotate(leg.foot, body->offset[joint]));
+        foot_turn[foot] = ff_pairq_half(legs.foot, foot);
+        ball[foot] = ff_pair3_half(balls, foot);
     }
 }
 
-void ff_leg_pose(const ff_body_frame *body, int foot, const ff_leg_target *target, ff_leg *leg,
-                 ff_quat hips_turn, ff_quat *rotations)
+/* Where a foot's ankle shall be; the heel raised, or the leg let short of it, where it is out of reach. */
+static ff_vec3 ankle_in_reach(const ff_body_frame *body, int foot, const ff_leg_target *target, ff_vec3 hip,
+                              ff_quat *turn)
 {
-    int joint = FF_JOINT_HIP_L + foot * FF_JOINT_LEG_STRIDE;
     double length = body->thigh[foot] + body->shank[foot];
-    leg->foot = target->turn;
-    ff_vec3 ankle = ff_gait_ankle(body, foot, target->ball, leg->foot);
-    double distance = ff_length3(ff_sub3(ankle, leg->hip));
+    ff_vec3 ankle = ff_gait_ankle(body, foot, target->ball, *turn);
+    double distance = ff_length3(ff_sub3(ankle, hip));
     double allowed = allowed_distance(target, distance, length);
     if (target->grip > 0.0 && distance > allowed) {
-        ff_quat raised =
-            heel_in_reach(body, target->ball, foot, leg->hip, leg->foot, allowed, target->most_raise);
-        leg->foot = target->grip < 1.0 ? ff_quat_nlerp(leg->foot, raised, target->grip) : raised;
-        ankle = ff_gait_ankle(body, foot, target->ball, leg->foot);
+        ff_quat raised = heel_in_reach(body, target->ball, foot, hip, *turn, allowed, target->most_raise);
+        *turn = target->grip < 1.0 ? ff_quat_nlerp(*turn, raised, target->grip) : raised;
+        ankle = ff_gait_ankle(body, foot, target->ball, *turn);
     }
-    if (target->swing > 0.0) ankle = swing_in_reach(target->swing, leg->hip, ankle, length);
-    ff_leg_solve(leg, leg->hip, ankle);
-    rotations[joint] = ff_quat_mul(ff_quat_conj(hips_turn), leg->thigh);
-    rotations[joint + 1] = ff_quat_mul(ff_quat_conj(leg->thigh), leg->shank);
-    rotations[joint + 2] = ff_quat_mul(ff_quat_conj(leg->shank), leg->foot);
-    rotations[joint + 3] = toes_on_floor(body, target, foot, leg->foot, rotations[joint + 3]);
+    return target->swing > 0.0 ? swing_in_reach(target->swing, hip, ankle, length) : ankle;
+}
+
+void ff_legs_pose(const ff_body_frame *body, const ff_leg_target target[2], ff_legs *legs, ff_quat *rotations)
+{
+    ff_vec3 ankle[2];
+    ff_quat turn[2], toes[2];
+    for (int foot = 0; foot < 2; ++foot) {
+        turn[foot] = target[foot].turn;
+        ankle[foot] = ankle_in_reach(body, foot, &target[foot], ff_pair3_half(legs->hip, foot), &turn[foot]);
+        toes[foot] = toes_on_floor(body, &target[foot], foot, turn[foot],
+                                   rotations[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE]);
+    }
+    legs->foot = ff_pairq_of(turn[0], turn[1]);
+    ff_legs_solve(legs, legs->hip, ff_pair3_of(ankle[0], ankle[1]));
+    ff_pairq hips = ff_pairq_of(rotations[FF_JOINT_HIPS], rotations[FF_JOINT_HIPS]);
+    put_both(ff_pairq_mul(ff_pairq_conj(hips), legs->thigh), FF_JOINT_HIP_L, rotations);
+    put_both(ff_pairq_mul(ff_pairq_conj(legs->thigh), legs->shank), FF_JOINT_KNEE_L, rotations);
+    put_both(ff_pairq_mul(ff_pairq_conj(legs->shank), legs->foot), FF_JOINT_ANKLE_L, rotations);
+    put_both(ff_pairq_of(toes[0], toes[1]), FF_JOINT_BALL_L, rotations);
 }

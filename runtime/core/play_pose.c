@@ -234,14 +234,17 @@ static void lower_hips(const ff_body_frame *body, ff_play_targets *at)
     at->hips.y -= ff_min(drop, MOST_DROP);
 }
 
-static void pose_leg(const ff_body_frame *body, const ff_play_targets *at, int foot, ff_quat *rotations)
+static void pose_legs(const ff_body_frame *body, const ff_play_targets *at, ff_quat *rotations)
 {
-    ff_quat hips_turn = at->rotations[FF_JOINT_HIPS];
-    ff_leg leg = ff_leg_of_clip(body, foot, at->hips, hips_turn, at->rotations);
-    ff_foothold ball = {at->ball[foot].z, at->ball[foot].x, at->ball[foot].y,
-                        ff_play_foot_yaw(at->foot[foot])};
-    ff_leg_target target = {ball, at->foot[foot], 0.0, MOST_RAISE, at->grip[foot], 0.0, 0.0};
-    ff_leg_pose(body, foot, &target, &leg, hips_turn, rotations);
+    ff_legs legs;
+    ff_leg_target target[2];
+    ff_legs_of_clip(body, at->hips, rotations, &legs);
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_foothold ball = {at->ball[foot].z, at->ball[foot].x, at->ball[foot].y,
+                            ff_play_foot_yaw(at->foot[foot])};
+        target[foot] = (ff_leg_target){ball, at->foot[foot], 0.0, MOST_RAISE, at->grip[foot], 0.0, 0.0};
+    }
+    ff_legs_pose(body, target, &legs, rotations);
 }
 
 void ff_play_pose(const ff_play_set *set, const ff_play *play, double time, ff_vec3 *hips, ff_quat *rotations)
@@ -251,8 +254,7 @@ void ff_play_pose(const ff_play_set *set, const ff_play *play, double time, ff_v
     lower_hips(&set->space->body, &at);
     *hips = at.hips;
     memcpy(rotations, at.rotations, sizeof at.rotations);
-    for (int foot = 0; foot < 2; ++foot)
-        pose_leg(&set->space->body, &at, foot, rotations);
+    pose_legs(&set->space->body, &at, rotations);
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
         rotations[j] = ff_quat_unit(rotations[j]);
 }

@@ -103,7 +103,7 @@ static void print_table(const synthesis_table *table)
     puts("every character: 4 examples, each between two of its frames, blended, and 3x4 matrices of all "
          "joints");
     puts("  us        of CPU time per character, one thread: median of the repeats (least)");
-    puts("  legs      with both legs solved to their footprints as well");
+    puts("  legs      with both legs solved to their footprints as well, as crowds have them");
     puts("  31 joints the pack's 21 and five fingers to a hand; 21: the pack's own, as crowds have them");
     puts("  elsewhere ozz-animation 0.16: 3.3 us, and 0.26 for two legs (31 joints, 10,000 characters)");
     printf("%10s %6s  %-8s %18s %18s\n", "characters", "joints", "path", "us", "us with legs");

@@ -156,17 +156,21 @@ static void bring_legs(const ff_blend_space *space, ff_vec3 hips, uint32_t lane_
     ff_quat rotations[FF_JOINT_COUNT];
     ff_pose_rotations(lanes, lane_count, FF_JOINT_HIPS, 1, rotations);
     ff_pose_rotations(lanes, lane_count, FF_JOINT_HIP_L, 2 * FF_JOINT_LEG_STRIDE, rotations + FF_JOINT_HIP_L);
+    ff_legs legs;
+    ff_leg_target target[2];
+    ff_legs_of_clip(&space->body, hips, rotations, &legs);
     for (int foot = 0; foot < 2; ++foot) {
-        ff_leg leg = ff_leg_of_clip(&space->body, foot, hips, rotations[FF_JOINT_HIPS], rotations);
+        ff_vec3 ankle = ff_pair3_half(legs.ankle, foot);
         ff_vec3 to_ball = space->body.offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
-        ff_vec3 ball = ff_add3(leg.ankle, ff_quat_rotate(leg.foot, to_ball));
-        ff_leg_target target = {.ball = {ball.z + 0.02, ball.x, space->body.ball_rest + 0.05 * foot, 0.1},
-                                .turn = ff_gait_foot_rotation(0.1, 0.0),
-                                .most_raise = 1.0,
-                                .grip = 1.0 - foot,
-                                .swing = 0.5 * foot};
-        ff_leg_pose(&space->body, foot, &target, &leg, rotations[FF_JOINT_HIPS], rotations);
+        ff_foothold ball = {ankle.z + to_ball.z + 0.02, ankle.x + to_ball.x,
+                            space->body.ball_rest + 0.05 * foot, 0.1};
+        target[foot] = (ff_leg_target){.ball = ball,
+                                       .turn = ff_gait_foot_rotation(0.1, 0.0),
+                                       .most_raise = 1.0,
+                                       .grip = 1.0 - foot,
+                                       .swing = 0.5 * foot};
     }
+    ff_legs_pose(&space->body, target, &legs, rotations);
     float *x = lanes, *y = x + lane_count, *z = y + lane_count, *w = z + lane_count;
     for (int j = FF_JOINT_HIP_L; j < FF_JOINT_COUNT; ++j) {
         x[j] = (float)rotations[j].x;
