@@ -1,7 +1,9 @@
 #include "runtime/core/synth_choice.h"
 
-/* Algorithms D.5. The time must be longer than a switch takes: 0.4 s until the next pair, 0.3 s for the pose. */
-#define TRANSITION_TIME 1.0
+/* Algorithms D.5. The time must be longer than a switch takes (0.4 s until the next pair, 0.3 s for the pose) and shorter
+ * than ORCA's horizon of 2.5 s. With the 1.0 s proposed there control came too late on the obstacle course: people who are
+ * not steered in time already brush each other (bench hybrid). */
+#define TRANSITION_TIME 2.0
 #define DENSITY 1.0 /* 1/m2 */
 /* Back to blending only with a margin in both, for a while; and nobody changes twice within DWELL. */
 #define TIME_MARGIN 1.3

@@ -56,6 +56,18 @@ double ff_cylinders_overlap(const ff_cylinders *p, const ff_cylinders *q)
     return deepest;
 }
 
+double ff_cylinders_in_wall(const ff_cylinders *body, ff_vec2 p, ff_vec2 q)
+{
+    ff_vec2 along = ff_sub2(q, p);
+    double length = ff_dot2(along, along), deepest = 0.0;
+    for (int i = 0; i < FF_CYLINDER_COUNT; ++i) {
+        ff_vec2 from = ff_sub2(ff_plane(body->at[i]), p);
+        double t = length > 0.0 ? ff_clamp(ff_dot2(from, along) / length, 0.0, 1.0) : 0.0;
+        deepest = ff_max(deepest, shape[i].radius - ff_length2(ff_madd2(from, along, -t)));
+    }
+    return deepest;
+}
+
 void ff_contacts_count(ff_contacts *contacts)
 {
     ff_cylinders *bodies = contacts->bodies;

@@ -38,6 +38,9 @@ ff_cylinders ff_cylinders_of(const ff_vec3 *joints);
 /* How deep the two bodies are in each other, 0 = apart (m, on the ground). */
 double ff_cylinders_overlap(const ff_cylinders *p, const ff_cylinders *q);
 
+/* How deep the body is in a wall from p to q. */
+double ff_cylinders_in_wall(const ff_cylinders *body, ff_vec2 p, ff_vec2 q);
+
 /* Look at every pair of those present, then forget who was. */
 void ff_contacts_count(ff_contacts *contacts);
 

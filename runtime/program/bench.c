@@ -16,6 +16,8 @@ static const ff_subcommand benches[] = {
     {"synthesis", "what a pose costs: four motions blended, matrices of all joints, both legs' IK",
      ff_bench_synthesis_main},
     {"walk", "how people walk: planted feet, knees, joints, on courses of every kind", ff_bench_walk_main},
+    {"hybrid", "an obstacle course by blending, semi-procedurally and by both (FbCrowd, section 7.1)",
+     ff_bench_hybrid_main},
     {0},
 };
 
