@@ -1,27 +1,6 @@
 /* Crowds through the public API: life and death of agents, goals, walls, determinism, bad arguments. */
 #include "tests/core/crowd_trial.h"
-#include "tests/core/walker_pack.h"
-
-static ff_pack *pack;
-static void *image;
-
-static int open_pack(void **state)
-{
-    (void)state;
-    size_t size;
-    ff_error error;
-    image = ff_walker_image(&ff_walker_grid_full, &size);
-    FF_ASSERT_OK(ff_pack_open_memory(image, size, &pack, &error), error);
-    return 0;
-}
-
-static int close_pack(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    free(image);
-    return 0;
-}
+#include "tests/core/walker_open.h"
 
 static ff_crowd *new_crowd(uint32_t agents, uint32_t threads)
 {
@@ -31,7 +10,7 @@ static ff_crowd *new_crowd(uint32_t agents, uint32_t threads)
     def.max_agents = agents;
     def.max_walls = 64;
     def.threads = threads;
-    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+    FF_ASSERT_OK(ff_crowd_create(walker.pack, &def, &crowd, &error), error);
     return crowd;
 }
 
@@ -286,7 +265,7 @@ static void stale_handles_and_bad_definitions_are_refused(void **state)
     wrong[5].keep_right = NAN;
     for (int i = 0; i < 6; ++i) {
         crowd = (ff_crowd *)&error;
-        assert_int_not_equal(ff_crowd_create(pack, &wrong[i], &crowd, &error), FF_OK);
+        assert_int_not_equal(ff_crowd_create(walker.pack, &wrong[i], &crowd, &error), FF_OK);
         assert_null(crowd);
     }
     assert_int_equal(ff_crowd_create(NULL, &wrong[0], &crowd, &error), FF_ERR_ARGUMENT);
@@ -310,7 +289,7 @@ static uint64_t busy_run(uint32_t threads, ff_parallel_for *tasks, void *pool, u
     def.threads = threads;
     def.tasks = tasks;
     def.task_pool = pool;
-    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+    FF_ASSERT_OK(ff_crowd_create(walker.pack, &def, &crowd, &error), error);
     trial_wall(crowd, ff_v2(-3, 1), ff_v2(3, 1.5));
     trial_wall(crowd, ff_v2(3, 1.5), ff_v2(3, 4));
     ff_random random = {8, 8, 0};
@@ -355,7 +334,7 @@ static void a_pose_can_be_asked_for_at_any_time(void **state)
         FF_ASSERT_OK(ff_crowd_agent_pose(crowd, agent, &hips, rotations, &error), error);
         ff_vec2 root = state_of(crowd, agent).position;
         FF_ASSERT_BELOW(ff_length2(ff_sub2(ff_plane(hips), root)), 0.25);
-        for (uint32_t j = 0; j < ff_pack_joint_count(pack); ++j)
+        for (uint32_t j = 0; j < ff_pack_joint_count(walker.pack); ++j)
             FF_ASSERT_NEAR(ff_quat_dot(rotations[j], rotations[j]), 1.0, 1e-9);
         ff_crowd_step(crowd);
     }
@@ -378,5 +357,5 @@ int main(void)
         cmocka_unit_test(one_thread_and_two_and_any_order_give_the_same_bits_after_3000_steps),
         cmocka_unit_test(a_pose_can_be_asked_for_at_any_time),
     };
-    return cmocka_run_group_tests(tests, open_pack, close_pack);
+    return cmocka_run_group_tests(tests, ff_walker_open, ff_walker_close);
 }

@@ -1,30 +1,9 @@
 /* Crowds with behaviour: what happens at a small fair (behave_fair.h), and the same to the bit however it is stepped. */
 #include "tests/check.h"
 #include "tests/core/behave_fair.h"
-#include "tests/core/walker_pack.h"
+#include "tests/core/walker_open.h"
 
 #include "runtime/core/behave.h"
-
-static ff_pack *pack;
-static void *image;
-
-static int open_pack(void **state)
-{
-    (void)state;
-    size_t size;
-    ff_error error;
-    image = ff_walker_image(&ff_walker_grid_full, &size);
-    FF_ASSERT_OK(ff_pack_open_memory(image, size, &pack, &error), error);
-    return 0;
-}
-
-static int close_pack(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    free(image);
-    return 0;
-}
 
 /* A crowd at the fair, with some who are there from the start. */
 static ff_crowd *fair_crowd(uint32_t threads, uint32_t there)
@@ -36,7 +15,7 @@ static ff_crowd *fair_crowd(uint32_t threads, uint32_t there)
     def.max_agents = 24;
     def.threads = threads;
     def.behaviour = &behaviour;
-    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+    FF_ASSERT_OK(ff_crowd_create(walker.pack, &def, &crowd, &error), error);
     for (uint32_t i = 0; i < there; ++i) {
         ff_agent agent;
         ff_agent_def one = ff_agent_def_default();
@@ -164,7 +143,7 @@ static ff_crowd *reloaded(ff_crowd *crowd, uint32_t threads)
     ff_crowd_def run = ff_crowd_def_default();
     run.threads = threads;
     ff_crowd *loaded;
-    FF_ASSERT_OK(ff_crowd_load(pack, data, size, &run, &loaded, &error), error);
+    FF_ASSERT_OK(ff_crowd_load(walker.pack, data, size, &run, &loaded, &error), error);
     free(data);
     return loaded;
 }
@@ -259,7 +238,7 @@ static ff_crowd *crowd_of(const ff_behaviour_def *behaviour)
     ff_crowd_def def = ff_crowd_def_default();
     def.max_agents = 8;
     def.behaviour = behaviour;
-    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+    FF_ASSERT_OK(ff_crowd_create(walker.pack, &def, &crowd, &error), error);
     return crowd;
 }
 
@@ -440,7 +419,7 @@ static void spawners_put_in_as_many_as_they_say_where_there_is_room(void **state
         def.max_agents = k == 3 ? 20 : 64;
         def.behaviour = &p.def;
         ff_crowd *crowd;
-        FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+        FF_ASSERT_OK(ff_crowd_create(walker.pack, &def, &crowd, &error), error);
         double nearest = INFINITY;
         uint32_t before = 0;
         for (int i = 0; i < 30 * 16; ++i) {
@@ -476,7 +455,7 @@ static void behaviour_is_refused_whole_or_where_there_is_none(void **state)
     ff_crowd_def def = ff_crowd_def_default();
     def.behaviour = &behaviour;
     ff_crowd *crowd;
-    assert_int_not_equal(ff_crowd_create(pack, &def, &crowd, &error), FF_OK);
+    assert_int_not_equal(ff_crowd_create(walker.pack, &def, &crowd, &error), FF_OK);
     assert_null(crowd);
     crowd = crowd_of(NULL);
     assert_int_equal(add(crowd, ff_v2(0, 0), 0, &agent), FF_ERR_RANGE);
@@ -509,5 +488,5 @@ int main(void)
         cmocka_unit_test(spawners_put_in_as_many_as_they_say_where_there_is_room),
         cmocka_unit_test(behaviour_is_refused_whole_or_where_there_is_none),
     };
-    return cmocka_run_group_tests(tests, open_pack, close_pack);
+    return cmocka_run_group_tests(tests, ff_walker_open, ff_walker_close);
 }

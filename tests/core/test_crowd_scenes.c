@@ -1,33 +1,12 @@
 /* The scenes of the navigation study on a small pack: everyone arrives, nobody sinks into another (bar 6). */
 #include "tests/core/crowd_trial.h"
-#include "tests/core/walker_pack.h"
-
-static ff_pack *pack;
-static void *image;
-
-static int open_pack(void **state)
-{
-    (void)state;
-    size_t size;
-    ff_error error;
-    image = ff_walker_image(&ff_walker_grid_full, &size);
-    FF_ASSERT_OK(ff_pack_open_memory(image, size, &pack, &error), error);
-    return 0;
-}
-
-static int close_pack(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    free(image);
-    return 0;
-}
+#include "tests/core/walker_open.h"
 
 static void run(trial_layout layout, uint32_t agents, double step, uint64_t seeds, double limit, double depth)
 {
     for (uint64_t seed = 1; seed <= seeds; ++seed) {
         trial t = {.layout = layout, .agents = agents, .step = step, .seed = seed, .limit = limit};
-        trial_result r = trial_run(pack, &t);
+        trial_result r = trial_run(walker.pack, &t);
         print_message("%u agents, step %.3f, seed %u: %u arrived, last %.1f s, deepest %.1f cm, %.2f us\n",
                       r.agents, step, (unsigned)seed, r.arrived, r.last, 100.0 * r.deepest, r.us_per_agent);
         assert_int_equal(r.arrived, r.agents);
@@ -85,5 +64,5 @@ int main(void)
         cmocka_unit_test(crossing_crowds_all_arrive),
         cmocka_unit_test(a_corridor_with_two_streams_flows),
     };
-    return cmocka_run_group_tests(tests, open_pack, close_pack);
+    return cmocka_run_group_tests(tests, ff_walker_open, ff_walker_close);
 }

@@ -2,31 +2,10 @@
 #include "runtime/core/joints.h"
 #include "runtime/core/pose_matrices.h"
 #include "tests/core/crowd_trial.h"
-#include "tests/core/walker_pack.h"
+#include "tests/core/walker_open.h"
 
 #define AGENTS 40
 #define LANES 24
-
-static void *image;
-static ff_pack *pack;
-
-static int open_pack(void **state)
-{
-    (void)state;
-    size_t size;
-    ff_error error;
-    image = ff_walker_image(&ff_walker_grid_small, &size);
-    FF_ASSERT_OK(ff_pack_open_memory(image, size, &pack, &error), error);
-    return 0;
-}
-
-static int close_pack(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    free(image);
-    return 0;
-}
 
 /* Every joint's frame must take three points to where doubles take them. */
 static void check_matrices(const ff_matrix *got, ff_vec3 hips, const ff_quat *rotations, double tolerance)
@@ -88,7 +67,7 @@ static ff_crowd *walkers(uint32_t threads, ff_vec2 centre)
     ff_crowd_def def = ff_crowd_def_default();
     def.max_agents = AGENTS;
     def.threads = threads;
-    FF_ASSERT_OK(ff_crowd_create(pack, &def, &crowd, &error), error);
+    FF_ASSERT_OK(ff_crowd_create(walker.pack, &def, &crowd, &error), error);
     for (int i = 0; i < AGENTS; ++i) {
         ff_agent agent;
         ff_agent_def one = ff_agent_def_default();
@@ -175,11 +154,12 @@ static void what_cannot_be_done_is_refused(void **state)
 
 int main(void)
 {
+    walker.grid = &ff_walker_grid_small;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_pose_comes_within_a_hundredth_of_a_millimetre_and_to_the_same_bits_in_plain_c),
         cmocka_unit_test(a_crowds_matrices_are_those_of_its_poses),
         cmocka_unit_test(any_number_of_threads_gives_the_same_matrices_and_asking_changes_nothing),
         cmocka_unit_test(what_cannot_be_done_is_refused),
     };
-    return cmocka_run_group_tests(tests, open_pack, close_pack);
+    return cmocka_run_group_tests(tests, ff_walker_open, ff_walker_close);
 }
