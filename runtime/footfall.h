@@ -369,7 +369,7 @@ typedef enum ff_facing {
 /* What the body walks by (FbCrowd, section 5). Whatever is chosen, who prefers more than 2.2 m/s runs where the pack has
  * runs and there is room. */
 typedef enum ff_synthesis {
-    FF_SYNTHESIS_CROWD,           /* of an agent: as its crowd's definition says. Of a crowd: blending */
+    FF_SYNTHESIS_CROWD,           /* of an agent: as its crowd's definition says. Of a crowd: hybrid */
     FF_SYNTHESIS_BLENDING,        /* examples, blended: natural, at the velocities between them */
     FF_SYNTHESIS_SEMI_PROCEDURAL, /* one clip, deformed: exactly the velocity that is asked for */
     FF_SYNTHESIS_HYBRID,          /* the former, and the latter when a collision is near or it is dense */

@@ -29,7 +29,7 @@ ff_crowd_def ff_crowd_def_default(void)
                           .threads = 1,
                           .keep_right = 0.30,
                           .navigation = FF_NAVIGATION_MCN,
-                          .synthesis = FF_SYNTHESIS_BLENDING,
+                          .synthesis = FF_SYNTHESIS_HYBRID,
                           .mcn = {.hull = true,
                                   .sharp_turn = true,
                                   .stance = true,

@@ -267,10 +267,13 @@ void ff_blend_lock(const ff_blend_space *space, const ff_blend *blend, int foot,
 {
     *start = *length = 0.0;
     if (blend->way == FF_SEMI_PROCEDURAL) {
+        /* Read backwards, a foot stands from where it let go to where it came down. */
         const double *hold = space->model.hold;
-        *start = 2.0 * foot + ff_clip_phase(blend, hold[0] * blend->stance);
-        *length =
-            ff_clip_phase(blend, hold[1] * blend->stance) - ff_clip_phase(blend, hold[0] * blend->stance);
+        double back = ff_gait_model_backward(blend->rates);
+        double from = ff_clip_phase(blend, ff_lerp(hold[0], 1.0 - hold[1], back) * blend->stance);
+        double to = ff_clip_phase(blend, ff_lerp(hold[1], 1.0 - hold[0], back) * blend->stance);
+        *start = 2.0 * foot + from;
+        *length = to - from;
         return;
     }
     for (int i = 0; i < FF_BLEND_MAX; ++i) {
