@@ -1,9 +1,13 @@
 #include "preprocess/annotate.h"
 
-static const double SAMPLE_RATE = 10.0; /* Hz, algorithms A.9 */
-
-/* Cylinder radii, m (A.9; root: footstep study, section 2). */
-static const double RADIUS[FF_COLLIDER_COUNT] = {0.12, 0.08, 0.08, 0.11, 0.11, 0.18};
+/* Rate and cylinder radii: algorithms A.9; root: footstep study, section 2. */
+void ff_collider_radii(const ff_collider_settings *settings, double out[FF_COLLIDER_COUNT])
+{
+    out[FF_COLLIDER_HEAD] = settings->head;
+    out[FF_COLLIDER_HAND_L] = out[FF_COLLIDER_HAND_R] = settings->hand;
+    out[FF_COLLIDER_FOOT_L] = out[FF_COLLIDER_FOOT_R] = settings->foot;
+    out[FF_COLLIDER_ROOT] = settings->root;
+}
 
 static ff_vec3 middle(const ff_vec3 *at, int p, int q)
 {
@@ -45,12 +49,14 @@ void ff_join_read(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec2
     }
 }
 
-void ff_action_sample(const ff_rig *rig, const ff_motion *motion, ff_vec2 origin, double heading,
-                      ff_action *out)
+void ff_action_sample(const ff_collider_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                      ff_vec2 origin, double heading, ff_action *out)
 {
+    double own[FF_COLLIDER_COUNT];
+    ff_collider_radii(settings, own);
     int first = out->first_frame, last = out->last_frame;
     double seconds = (last - first) * motion->frame_time;
-    int samples = (int)ceil(seconds * SAMPLE_RATE - 1e-9) + 1;
+    int samples = (int)ceil(seconds * settings->rate - 1e-9) + 1;
     if (samples < 2) samples = 2;
     if (samples > FF_COLLIDER_SAMPLES_MAX) samples = FF_COLLIDER_SAMPLES_MAX;
     ff_vec2 axis = ff_fwd2(heading);
@@ -67,7 +73,7 @@ void ff_action_sample(const ff_rig *rig, const ff_motion *motion, ff_vec2 origin
             ff_vec2 local = ff_to_frame2(axis, ff_sub2(ff_plane(here), origin));
             out->colliders[k][c] = (ff_pack_collider){(float)local.a, (float)local.b,
                                                       (float)(here.y - (double)out->record.height)};
-            radius = ff_max(radius, ff_length2(ff_sub2(ff_plane(here), root)) + RADIUS[c]);
+            radius = ff_max(radius, ff_length2(ff_sub2(ff_plane(here), root)) + own[c]);
         }
     }
     out->record.collider_samples = (uint32_t)samples;

@@ -4,10 +4,7 @@
 
 #include <string.h>
 
-/* J/(kg s) and J s/(kg m2): Whittle's figures as the paper uses them (algorithms B.2). */
-static const double E_S = 2.23, E_W = 1.26;
-static const double SHORTEST_FLIGHT = 0.03, RUN_SPEED = 2.1; /* s, m/s: algorithms A.6 */
-static const double NO_DIRECTION = 0.02;                     /* m: a displacement below it has no angle */
+static const double NO_DIRECTION = 0.02; /* m: a displacement below it has no angle */
 /* m: median forward step of the CMU walks (footstep study), for a pack of a single clip; ff_actions_split_walks sets
  * the median of all clips. */
 static const double MEDIAN_STEP = 0.71;
@@ -48,13 +45,14 @@ static double ground_speed(const ff_vec3 *root, int first, int last, int i, doub
     return ff_length2(ff_v2(moved.x, moved.y)) / ((after - before) * frame_time);
 }
 
-double ff_walk_energy(const ff_vec3 *root, int first, int last, double frame_time)
+double ff_walk_energy(const ff_energy_settings *energy, const ff_vec3 *root, int first, int last,
+                      double frame_time)
 {
     double sum = 0.0;
     for (int i = first; i <= last; ++i) {
         double v = ground_speed(root, first, last, i, frame_time);
         double weight = i == first || i == last ? 0.5 : 1.0;
-        sum += weight * (E_S + E_W * v * v) * frame_time;
+        sum += weight * (energy->standing + energy->moving * v * v) * frame_time;
     }
     return last > first ? sum : 0.0;
 }
@@ -109,18 +107,18 @@ static void store3(float out[3], ff_vec2 v, double angle)
     out[2] = (float)angle;
 }
 
-static uint32_t find_mode(const ff_pack_action *r, const ff_step_span *span)
+static uint32_t find_mode(const ff_step_settings *set, const ff_pack_action *r, const ff_step_span *span)
 {
     if (span->mode >= 0) return (uint32_t)span->mode;
-    if (r->flight[1] - r->flight[0] >= (float)SHORTEST_FLIGHT || r->speed > (float)RUN_SPEED)
+    if (r->flight[1] - r->flight[0] >= (float)set->flight || r->speed > (float)set->run_speed)
         return FF_MODE_RUN;
     return ff_length2(ff_v2((double)r->step_length, (double)r->step_width)) < MEDIAN_STEP ? FF_MODE_WALK_SHORT
                                                                                           : FF_MODE_WALK_LONG;
 }
 
 /* Times, feet and the flight. */
-static void describe_time(const ff_motion *motion, const ff_plants *plants, const ff_step_span *span,
-                          ff_pack_action *r)
+static void describe_time(const ff_energy_settings *energy, const ff_motion *motion, const ff_plants *plants,
+                          const ff_step_span *span, ff_pack_action *r)
 {
     double dt = motion->frame_time;
     int from = 0, to = 0;
@@ -131,7 +129,7 @@ static void describe_time(const ff_motion *motion, const ff_plants *plants, cons
     r->t_0 = (float)(span->first * dt);
     r->t_end = (float)(span->last * dt);
     r->duration = (float)((span->last - span->first) * dt);
-    r->energy = (float)ff_walk_energy(motion->root, span->first, span->last, dt);
+    r->energy = (float)ff_walk_energy(energy, motion->root, span->first, span->last, dt);
     r->flight[0] = r->flight[1] = -1.0f;
     if (ff_find_flight(plants, span->first, span->last, &from, &to)) {
         r->flight[0] = (float)(from * dt);
@@ -193,8 +191,8 @@ static void list_events(const ff_motion *motion, const ff_plants *plants, ff_act
     }
 }
 
-void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                        const ff_step_span *span, ff_action *out)
+void ff_action_annotate(const ff_cut_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                        const ff_plants *plants, const ff_step_span *span, ff_action *out)
 {
     memset(out, 0, sizeof *out);
     ff_pack_action *r = &out->record;
@@ -204,7 +202,7 @@ void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_pla
     double level = plants->items[span->support].level, landing = plants->items[span->swing].level;
     r->height = (float)(level * motion->scale);
     r->rise = (float)((landing - level) * motion->scale);
-    describe_time(motion, plants, span, r);
+    describe_time(&settings->energy, motion, plants, span, r);
     feet start = feet_at(rig, motion, span->first), end = feet_at(rig, motion, span->last);
     /* The swing foot's old footstep is its ball at its full plant, so that one action's f starts where the last one
      * landed. */
@@ -214,9 +212,10 @@ void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_pla
         left = feet_at(rig, motion, full >= 0 && full < span->first ? full : span->first).ball[r->swing];
     }
     describe_step(motion, span, &start, &end, left, r);
-    r->mode = find_mode(r, span);
+    r->mode = find_mode(&settings->steps, r, span);
     list_events(motion, plants, out);
-    ff_action_sample(rig, motion, start.ball[r->support], motion->root[span->first].z, out);
+    ff_action_sample(&settings->colliders, rig, motion, start.ball[r->support], motion->root[span->first].z,
+                     out);
     ff_join_read(rig, motion, span->first, start.ball[r->support], motion->root[span->first].z,
                  (double)r->height, &out->start);
     ff_join_read(rig, motion, span->last, end.ball[r->swing], motion->root[span->last].z,

@@ -18,22 +18,27 @@ typedef struct ff_step_span {
  * frame in which the ball rests. -1 when it never is. */
 int ff_plant_full(const ff_plants *plants, int plant);
 
-/* Metabolic energy of walking (algorithms B.2), J/kg: integral of e_s + e_w v^2 over the root's ground path. */
-double ff_walk_energy(const ff_vec3 *root, int first, int last, double frame_time);
+/* Metabolic energy of walking (algorithms B.2; the figures are Whittle's as the paper uses them), J/kg: integral of e_s +
+ * e_w v^2 over the root's ground path. */
+double ff_walk_energy(const ff_energy_settings *energy, const ff_vec3 *root, int first, int last,
+                      double frame_time);
 
 /* Longest stretch of [first, last] in which no foot is down, in frames; returns false when there is none. */
 bool ff_find_flight(const ff_plants *plants, int first, int last, int *from, int *to);
 
 /* Fill record (all but clip and first_collider) and colliders. */
-void ff_action_annotate(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                        const ff_step_span *span, ff_action *out);
+void ff_action_annotate(const ff_cut_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                        const ff_plants *plants, const ff_step_span *span, ff_action *out);
 
 /* Joints about a frame as seen from origin and heading, over a level (m). */
 void ff_join_read(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec2 origin, double heading,
                   double level, ff_join *out);
 
+/* m, of the cylinders about the colliders. */
+void ff_collider_radii(const ff_collider_settings *settings, double out[FF_COLLIDER_COUNT]);
+
 /* Fill colliders, collider_samples and coarse_radius of an action whose frames, frame S0 and height are given. */
-void ff_action_sample(const ff_rig *rig, const ff_motion *motion, ff_vec2 origin, double heading,
-                      ff_action *out);
+void ff_action_sample(const ff_collider_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                      ff_vec2 origin, double heading, ff_action *out);
 
 #endif

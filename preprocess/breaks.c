@@ -7,20 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How far a joint may be from where the two frames before and after have it: 1.2 cm for markers, and what the blow of
- * a landing does, where the speed changes by 4 m/s within one frame (a third of it shows). */
-static const double MARKER_OFF = 0.012, BLOW = 4.0;
-static const double TOGETHER = 0.03;    /* s between wild frames of one break */
-static const double MOVING = 0.15;      /* m/s, mean over the joints: slower bodies may well stand still */
-static const double JUMP_LEAVES = 0.03; /* m that before and after stay apart */
+static const double TOGETHER = 0.03; /* s between wild frames of one break */
 /* What a joint carries moves with it: a child is named only when it is off this many times as far as its parents. */
 static const double CARRIED = 1.4;
 static const double SPEED_WINDOW = 0.025; /* s */
 
 typedef struct search {
     const ff_clip *clip;
-    ff_vec3 *at;  /* [frame_count][joint_count] */
-    double limit; /* m */
+    const ff_break_settings *settings;
+    ff_vec3 *at; /* [frame_count][joint_count] */
+    /* m, that a joint may be from where the two frames before and after have it: markers by 1.2 cm, and by what the blow
+     * of a landing does, where the speed changes by 4 m/s within one frame (a third of it shows). */
+    double limit;
     ff_array found;
     ff_error *error;
 } search;
@@ -149,7 +147,7 @@ static ff_status name_break(search *s, int first, int last)
     if (single && last - first <= 4) {
         b.kind = FF_BREAK_SPIKE;
         b.first = b.last = peak;
-    } else if (worst >= 0 && left_behind(s, first, last, worst) > JUMP_LEAVES) {
+    } else if (worst >= 0 && left_behind(s, first, last, worst) > s->settings->jump) {
         b.kind = FF_BREAK_JUMP;
         b.size = left_behind(s, first, last, worst);
     }
@@ -192,7 +190,7 @@ static ff_status judge_still(search *s, int first, int last)
     double before = first > s->clip->rest_frames ? body_speed(s, first - 1, first) : 0.0;
     double after = last + 1 < s->clip->frame_count ? body_speed(s, last, last + 1) : 0.0;
     double speed = ff_max(before, after);
-    if (last <= first || speed < MOVING) return FF_OK;
+    if (last <= first || speed < s->settings->moving) return FF_OK;
     return keep(s, (ff_break){first, last, FF_BREAK_FROZEN, FF_ROLE_NONE, speed, true, false});
 }
 
@@ -217,12 +215,16 @@ static int by_place(const void *x, const void *y)
     return (p->kind > q->kind) - (p->kind < q->kind);
 }
 
-ff_status ff_breaks_find(const ff_clip *clip, ff_breaks *out, ff_error *error)
+ff_status ff_breaks_find(const ff_clip *clip, const ff_break_settings *settings, ff_breaks *out,
+                         ff_error *error)
 {
     memset(out, 0, sizeof *out);
     if (clip->drawn) return FF_OK;
-    search s = {
-        .clip = clip, .limit = MARKER_OFF + BLOW / 3.0 * clip->frame_time, .found = {0}, .error = error};
+    search s = {.clip = clip,
+                .settings = settings,
+                .limit = settings->off + settings->blow / 3.0 * clip->frame_time,
+                .found = {0},
+                .error = error};
     s.at = ff_calloc((size_t)clip->frame_count * (size_t)clip->joint_count, sizeof *s.at);
     if (!s.at)
         return ff_fail(error, FF_ERR_NO_MEMORY, "%s: no memory for %d poses", clip->name, clip->frame_count);
@@ -253,9 +255,9 @@ static void put_back(ff_clip *clip, int frame)
         place[k] = ff_lerp3(place[k - tracks], place[k + tracks], 0.5);
 }
 
-ff_status ff_breaks_repair(ff_clip *clip, ff_breaks *out, ff_error *error)
+ff_status ff_breaks_repair(ff_clip *clip, const ff_break_settings *settings, ff_breaks *out, ff_error *error)
 {
-    ff_status status = ff_breaks_find(clip, out, error);
+    ff_status status = ff_breaks_find(clip, settings, out, error);
     for (int i = 0; i < out->count; ++i) {
         ff_break *b = &out->items[i];
         /* Of a frame that stands twice, the second one is wrong. */

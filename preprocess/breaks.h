@@ -3,6 +3,7 @@
 #define FF_BREAKS_H
 
 #include "mocap/clip.h"
+#include "preprocess/stage_settings.h"
 
 typedef enum ff_break_kind {
     FF_BREAK_SPIKE,  /* one frame is off and its neighbours agree with each other */
@@ -28,10 +29,11 @@ typedef struct ff_breaks {
 } ff_breaks;
 
 /* Find every break of the clip. On failure *out is zeroed. */
-ff_status ff_breaks_find(const ff_clip *clip, ff_breaks *out, ff_error *error);
+ff_status ff_breaks_find(const ff_clip *clip, const ff_break_settings *settings, ff_breaks *out,
+                         ff_error *error);
 
 /* The same, and put single frames (spikes, one frame doubled) back from their neighbours, in place. */
-ff_status ff_breaks_repair(ff_clip *clip, ff_breaks *out, ff_error *error);
+ff_status ff_breaks_repair(ff_clip *clip, const ff_break_settings *settings, ff_breaks *out, ff_error *error);
 void ff_breaks_free(ff_breaks *breaks);
 
 /* The first break of the body, not repaired, that has a frame in [first, last], or NULL. A jump counts when it lies

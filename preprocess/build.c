@@ -194,19 +194,6 @@ static ff_status load_rig(build *b, const char *path, ff_error *error)
     return status;
 }
 
-/* Each person counts once, however many clips there are of them: clips of one subject have the same bones. */
-static ff_status make_rig(build *b, ff_error *error)
-{
-    const ff_clip **clips = ff_calloc((size_t)b->good, sizeof(const ff_clip *));
-    if (!clips) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", b->good);
-    int people = 0;
-    for (int i = 0; i < b->good; ++i)
-        if (b->clips[i].first_of_subject) clips[people++] = &b->clips[i].clip;
-    ff_status status = ff_rig_from_clips(clips, people, &b->rig, error);
-    free(clips);
-    return status;
-}
-
 /* What is a short and what a long step is known once all clips are cut. */
 static ff_status split_walks(ff_build_clip *clips, int count, ff_error *error)
 {
@@ -225,7 +212,9 @@ static ff_status add_skin(build *b, ff_error *error)
     ff_load_options options = ff_load_options_default();
     const char *path = b->settings->skin;
     if (!path && catalogue && catalogue->skin) path = catalogue->skin, options = catalogue->skin_options;
-    return path ? ff_pack_add_skin(&b->result->content, &b->rig, path, &options, error) : FF_OK;
+    return path ? ff_pack_add_skin(&b->result->content, &b->settings->pack.skin, &b->rig, path, &options,
+                                   error)
+                : FF_OK;
 }
 
 /* Every clip of the pack: the good ones, then what was derived from them. They are shallow copies, which share what the
@@ -291,15 +280,18 @@ static ff_status add_all(build *b, gathered *g, ff_example_set *set, ff_error *e
     int wanted = (int)b->settings->pack.actions.count;
     ff_status status = gather(b, set, g, error);
     if (status == FF_OK && wanted > 0) {
-        status = ff_actions_select(g->clips, g->count, wanted, b->tasks, error);
+        status =
+            ff_actions_select(&b->settings->pack.successors, g->clips, g->count, wanted, b->tasks, error);
         if (status == FF_OK) drop_unused(g, set);
     }
     if (status == FF_OK) warn_of_level(b, set);
     if (status == FF_OK) status = ff_pack_add_examples(content, set, error);
-    if (status == FF_OK) status = ff_pack_add_gait(content, &b->rig, set, b->tasks, error);
+    if (status == FF_OK)
+        status = ff_pack_add_gait(content, &b->settings->pack.correspondences, &b->rig, set, b->tasks, error);
     if (status == FF_OK)
         status = ff_pack_add_clips(content, g->clips, g->count, b->settings->pack.poses.rate, error);
-    if (status == FF_OK) status = ff_pack_add_successors(content, b->tasks, error);
+    if (status == FF_OK)
+        status = ff_pack_add_successors(content, &b->settings->pack.successors, b->tasks, error);
     if (status == FF_OK) status = ff_pack_add_reach(content, error);
     if (status == FF_OK) status = add_skin(b, error);
     if (status == FF_OK)
@@ -321,7 +313,9 @@ static ff_status fill(build *b, ff_error *error)
         for (int k = 0; k < cycles[i].count; ++k)
             cycles[i].items[k].clip = i;
     }
-    if (status == FF_OK) status = ff_examples_select(&b->rig, cycles, subject, b->good, &set, error);
+    if (status == FF_OK)
+        status = ff_examples_select(&b->settings->pack.cut.examples, &b->rig, cycles, subject, b->good, &set,
+                                    error);
     free(subject);
     free(cycles);
     if (status != FF_OK) return status;
@@ -367,8 +361,8 @@ static ff_status run(build *b, ff_error *error)
     b->good = b->count;
     if (status == FF_OK && *given) status = load_rig(b, given, error);
     if (status == FF_OK) status = run_stage(b, "reading", ff_build_clip_find, error);
-    if (status == FF_OK) ff_build_find_subjects(b->clips, b->good);
-    if (status == FF_OK && !*given) status = make_rig(b, error);
+    if (status == FF_OK && *given) ff_build_find_subjects(b->clips, b->good);
+    if (status == FF_OK && !*given) status = ff_build_median_rig(b->clips, b->good, &b->rig, error);
     if (status == FF_OK) status = ff_pack_add_rig(&b->result->content, &b->rig, error);
     b->shared.joints = b->result->content.joints.data;
     b->shared.points = b->result->content.points.data;

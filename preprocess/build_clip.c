@@ -64,14 +64,15 @@ static ff_status generate(const ff_build_clip *clip, ff_clip *out, ff_error *err
 }
 
 /* All frames of the clip that the catalogue wants, single broken ones put back. */
-static ff_status read_frames(const ff_build_clip *clip, ff_clip *out, ff_breaks *repaired, ff_error *error)
+static ff_status read_frames(const ff_build_clip *clip, const ff_find_settings *settings, ff_clip *out,
+                             ff_breaks *repaired, ff_error *error)
 {
     const ff_catalogue_entry *entry = clip->entry;
     memset(repaired, 0, sizeof *repaired);
     if (!entry) return generate(clip, out, error);
     ff_status status = ff_clip_load(entry->path, &entry->options, out, error);
     if (status == FF_OK) status = ff_clip_keep(out, entry->trim_first, entry->trim_last, error);
-    if (status == FF_OK) status = ff_breaks_repair(out, repaired, error);
+    if (status == FF_OK) status = ff_breaks_repair(out, &settings->breaks, repaired, error);
     if (status != FF_OK) ff_clip_free(out);
     return status;
 }
@@ -157,29 +158,30 @@ static void make_cut_key(ff_build_clip *clip, const ff_build_shared *shared)
 /* ----------------------------------------------------------------------------------------------------- stage 1 */
 
 /* Found, then what a person wrote beside the clip; frames in that file are the clip file's. */
-static ff_status find_plants(ff_build_clip *clip)
+static ff_status find_plants(ff_build_clip *clip, const ff_find_settings *settings)
 {
     ff_plant_edits edits;
     bool written = false;
-    if (!clip->entry) return ff_plants_find(&clip->clip, &clip->plants, &clip->error);
+    if (!clip->entry) return ff_plants_find(&clip->clip, settings, &clip->plants, &clip->error);
     ff_status status = ff_plant_edits_load(clip->entry->path, &edits, &written, &clip->error);
     if (status != FF_OK) return status;
     ff_plant_edits_trim(&edits, clip->first_frame, clip->clip.frame_count);
-    status = ff_plants_find_edited(&clip->clip, written ? &edits : NULL, &clip->plants, &clip->error);
+    status =
+        ff_plants_find_edited(&clip->clip, settings, written ? &edits : NULL, &clip->plants, &clip->error);
     ff_plant_edits_free(&edits);
     return status;
 }
 
-static ff_status find(ff_build_clip *clip)
+static ff_status find(ff_build_clip *clip, const ff_find_settings *settings)
 {
-    ff_status status = read_frames(clip, &clip->clip, &clip->repaired, &clip->error);
+    ff_status status = read_frames(clip, settings, &clip->clip, &clip->repaired, &clip->error);
     if (status != FF_OK) return status;
     if (!clip->entry) {
         size_t poses = (size_t)clip->clip.frame_count * (size_t)clip->clip.joint_count;
         clip->hash = XXH64(clip->clip.rotations, poses * sizeof *clip->clip.rotations, 0);
     }
     clip->frames = clip->clip.frame_count;
-    status = find_plants(clip);
+    status = find_plants(clip, settings);
     keep_last_frame(&clip->clip);
     return status;
 }
@@ -199,7 +201,7 @@ void ff_build_clip_find(ff_build_clip *clip, const ff_build_shared *shared)
         free(data);
         if (whole) return;
     }
-    if (clip->status == FF_OK) clip->status = find(clip);
+    if (clip->status == FF_OK) clip->status = find(clip, &shared->settings->find);
     ff_array entry = {0};
     if (clip->status == FF_OK && ff_carry_found_out(clip, &entry))
         ff_cache_store(shared->cache, "find", clip->find_key, entry.data, entry.count);
@@ -234,7 +236,8 @@ static bool has_tag(const char *tags, const char *word)
 
 /* ----------------------------------------------------------------------------------------------------- stage 2 */
 
-ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *error)
+ff_status ff_build_clip_read(const ff_build_clip *clip, const ff_find_settings *settings, ff_clip *out,
+                             ff_error *error)
 {
     uint64_t own = clip->hash, all;
     ff_status status = FF_OK;
@@ -242,7 +245,7 @@ ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *
     if (status == FF_OK && own != clip->hash)
         status = ff_fail(error, FF_ERR_IO, "the file changed while it was worked on");
     ff_breaks repaired; /* the same as the first time */
-    if (status == FF_OK) status = read_frames(clip, out, &repaired, error);
+    if (status == FF_OK) status = read_frames(clip, settings, out, &repaired, error);
     if (status == FF_OK) ff_breaks_free(&repaired);
     return status;
 }
@@ -270,28 +273,29 @@ ff_status ff_build_clip_motion(ff_build_clip *clip, const ff_build_shared *share
 {
     const ff_plants *plants = &clip->plants;
     ff_clip whole;
-    ff_status status = ff_build_clip_read(clip, &whole, &clip->error);
+    ff_status status = ff_build_clip_read(clip, &shared->settings->find, &whole, &clip->error);
     if (status != FF_OK) return status;
     status = ff_motion_from_clip(shared->rig, &whole, plants, &clip->motion, &clip->error);
     ff_clip_free(&whole);
-    if (status == FF_OK && shared->settings->motion.clean)
-        status = ff_motion_clean(shared->rig, &clip->motion, plants, &clip->cleaned, &clip->error);
+    if (status == FF_OK && shared->settings->cut.motion.clean)
+        status = ff_motion_clean(shared->rig, &shared->settings->cut.clean, &clip->motion, plants,
+                                 &clip->cleaned, &clip->error);
     return status;
 }
 
 ff_status ff_build_clip_actions(ff_build_clip *clip, const ff_build_shared *shared)
 {
-    return ff_actions_cut(shared->rig, &clip->motion, &clip->plants, mode_tag(clip->mode), &clip->actions,
-                          &clip->error);
+    return ff_actions_cut(&shared->settings->cut, shared->rig, &clip->motion, &clip->plants,
+                          mode_tag(clip->mode), &clip->actions, &clip->error);
 }
 
 /* Is there a straight walk among the whole cycles that a pack can walk with? */
-static bool has_firm_walk(const ff_rig *rig, const ff_cycles *cycles)
+static bool has_firm_walk(const ff_example_settings *settings, const ff_rig *rig, const ff_cycles *cycles)
 {
     char why[96];
     for (int i = 0; i < cycles->count; ++i)
         if (ff_example_is_model(&cycles->items[i]) &&
-            ff_example_judge(rig, &cycles->items[i], why, sizeof why))
+            ff_example_judge(settings, rig, &cycles->items[i], why, sizeof why))
             return true;
     return false;
 }
@@ -303,17 +307,18 @@ static ff_status cut(ff_build_clip *clip, const ff_build_shared *shared)
     bool walks = mode != FF_MODE_JUMP && mode != FF_MODE_CLIMB && mode != FF_MODE_CROUCH &&
                  !has_tag(clip->tags, FF_TAG_NO_EXAMPLE);
     const ff_rig *rig = shared->rig;
+    const ff_cut_settings *set = &shared->settings->cut;
     ff_status status = ff_build_clip_motion(clip, shared);
     if (status == FF_OK) status = ff_build_clip_actions(clip, shared);
     if (status == FF_OK && walks)
-        status =
-            ff_cycles_cut(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles, &clip->error);
-    if (status == FF_OK && walks && !has_firm_walk(rig, &clip->cycles))
-        status = ff_cycles_cut_half(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
-                                    &clip->error);
+        status = ff_cycles_cut(&set->cycles, rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
+                               &clip->error);
+    if (status == FF_OK && walks && !has_firm_walk(&set->examples, rig, &clip->cycles))
+        status = ff_cycles_cut_half(&set->cycles, rig, &clip->motion, plants, rest, clip->clip.name,
+                                    &clip->cycles, &clip->error);
     if (status == FF_OK && walks)
-        status = ff_cycles_cut_idle(rig, &clip->motion, plants, rest, clip->clip.name, &clip->cycles,
-                                    &clip->error);
+        status = ff_cycles_cut_idle(&set->cycles, rig, &clip->motion, plants, rest, clip->clip.name,
+                                    &clip->cycles, &clip->error);
     if (status == FF_OK) status = ff_build_clip_store(clip, shared);
     return status;
 }
@@ -373,4 +378,17 @@ void ff_build_find_subjects(ff_build_clip *clips, int count)
         clips[i].first_of_subject = clips[i].subject < 0;
         if (clips[i].subject < 0) clips[i].subject = subjects++;
     }
+}
+
+ff_status ff_build_median_rig(ff_build_clip *clips, int count, ff_rig *out, ff_error *error)
+{
+    const ff_clip **people = ff_calloc((size_t)count, sizeof(const ff_clip *));
+    if (!people) return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory for %d clips", count);
+    ff_build_find_subjects(clips, count);
+    int n = 0;
+    for (int i = 0; i < count; ++i)
+        if (clips[i].status == FF_OK && clips[i].first_of_subject) people[n++] = &clips[i].clip;
+    ff_status status = ff_rig_from_clips(people, n, out, error);
+    free(people);
+    return status;
 }

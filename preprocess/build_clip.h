@@ -57,7 +57,8 @@ void ff_build_clip_begin(ff_build_clip *clip, const ff_catalogue_entry *entry, i
 /* Stage 1: read the file (or generate the built-in clip), trim, find plants. */
 void ff_build_clip_find(ff_build_clip *clip, const ff_build_shared *shared);
 /* All frames of the clip as stage 1 saw them (trimmed, single broken ones put back). The caller frees *out. */
-ff_status ff_build_clip_read(const ff_build_clip *clip, ff_clip *out, ff_error *error);
+ff_status ff_build_clip_read(const ff_build_clip *clip, const ff_find_settings *settings, ff_clip *out,
+                             ff_error *error);
 /* Stage 2: onto the rig, feet cleaned up if the settings say so, actions, gait cycles and the motion as the pack stores it. */
 void ff_build_clip_cut(ff_build_clip *clip, const ff_build_shared *shared);
 
@@ -75,6 +76,10 @@ static inline double ff_build_clip_seconds(const ff_build_clip *clip)
 }
 
 void ff_build_clip_free(ff_build_clip *clip);
+
+/* The skeleton of a pack for which none is given: median proportions of the people in the clips that could be read. Each
+ * counts once, however many clips there are of one; gives them their subject numbers. */
+ff_status ff_build_median_rig(ff_build_clip *clips, int count, ff_rig *out, ff_error *error);
 
 /* Give clips with the same bone lengths the same subject number, counting from 0. */
 void ff_build_find_subjects(ff_build_clip *clips, int count);

@@ -134,7 +134,7 @@ static int settle(const ff_command *command, const build_words *words, ff_build_
     if (words->config && ff_settings_load(words->config, &settings->pack, &error) != FF_OK)
         return ff_command_fail(PROGRAM, &error);
     if (words->rate > 0.0) settings->pack.poses.rate = words->rate;
-    if (words->raw) settings->pack.motion.clean = false;
+    if (words->raw) settings->pack.cut.motion.clean = false;
     if (words->skeleton) {
         if (strlen(words->skeleton) >= FF_SETTING_PATH)
             return ff_command_misuse(command, "--skeleton: the path is too long");

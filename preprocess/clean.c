@@ -52,11 +52,11 @@ static void smooth(ff_motion *motion)
 
 /* ---------------------------------------------------------------------------------------------------- the clean-up */
 
-static ff_status clean(const ff_rig *rig, ff_motion *motion, const ff_plants *plants, ff_clean_report *report,
-                       ff_error *error)
+static ff_status clean(const ff_rig *rig, const ff_clean_settings *settings, ff_motion *motion,
+                       const ff_plants *plants, ff_clean_report *report, ff_error *error)
 {
     ff_clean_pins pins;
-    ff_status status = ff_clean_pins_find(rig, motion, plants, &pins, error);
+    ff_status status = ff_clean_pins_find(rig, settings, motion, plants, &pins, error);
     if (status != FF_OK) return status;
     smooth(motion);
     status = ff_clean_by_knots(rig, motion, &pins, report, error);
@@ -76,18 +76,20 @@ static bool is_clean(const ff_clean_report *r)
 }
 
 /* Far beyond what the clips of the cleanup study need: such a motion is not the captured one any more. */
-static ff_status judge(const ff_clean_report *r, ff_error *error)
+static ff_status judge(const ff_clean_settings *most, const ff_clean_report *r, ff_error *error)
 {
     const struct {
         const char *what, *unit;
         double value, limit;
     } limits[] = {
-        {"planted feet still slide by", "mm", 1e3 * r->pin_worst.after, 20.0},
-        {"hips and legs had to be turned by, on average,", "degrees", r->turn_mean / FF_DEG, 5.0},
+        {"planted feet still slide by", "mm", 1e3 * r->pin_worst.after, 1e3 * most->most_slide},
+        {"hips and legs had to be turned by, on average,", "degrees", r->turn_mean / FF_DEG,
+         most->most_turned},
         {"one time in twenty a joint had to be turned by more than", "degrees", r->turn_most_95 / FF_DEG,
-         20.0},
-        {"hips had to be moved by, on average,", "mm", 1e3 * r->shift_mean, 80.0},
-        {"knees and ankles shake more than captured, by a factor of", "", r->acceleration, 1.6},
+         most->most_turned_95},
+        {"hips had to be moved by, on average,", "mm", 1e3 * r->shift_mean, 1e3 * most->most_moved},
+        {"knees and ankles shake more than captured, by a factor of", "", r->acceleration,
+         most->most_shaking},
     };
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; ++i)
         if (!(limits[i].value <= limits[i].limit))
@@ -99,19 +101,19 @@ static ff_status judge(const ff_clean_report *r, ff_error *error)
     return FF_OK;
 }
 
-ff_status ff_motion_clean(const ff_rig *rig, ff_motion *motion, const ff_plants *plants,
-                          ff_clean_report *report, ff_error *error)
+ff_status ff_motion_clean(const ff_rig *rig, const ff_clean_settings *settings, ff_motion *motion,
+                          const ff_plants *plants, ff_clean_report *report, ff_error *error)
 {
     memset(report, 0, sizeof *report);
     ff_motion before;
-    ff_status status = ff_clean_measure(rig, motion, motion, plants, report, error);
+    ff_status status = ff_clean_measure(rig, settings, motion, motion, plants, report, error);
     report->was_clean = is_clean(report);
     if (status != FF_OK || report->was_clean) return status;
     status = ff_motion_copy(motion, &before, error);
     if (status != FF_OK) return status;
-    status = clean(rig, motion, plants, report, error);
-    if (status == FF_OK) status = ff_clean_measure(rig, &before, motion, plants, report, error);
-    if (status == FF_OK) status = judge(report, error);
+    status = clean(rig, settings, motion, plants, report, error);
+    if (status == FF_OK) status = ff_clean_measure(rig, settings, &before, motion, plants, report, error);
+    if (status == FF_OK) status = judge(settings, report, error);
     ff_motion_free(&before);
     return status;
 }

@@ -32,11 +32,12 @@ typedef struct ff_clean_report {
 
 /* Clean a motion that ff_motion_from_clip made with the same plants. Fails with FF_ERR_RANGE, saying why, when the clip
  * cannot be brought over cleanly; the motion is then useless. */
-ff_status ff_motion_clean(const ff_rig *rig, ff_motion *motion, const ff_plants *plants,
-                          ff_clean_report *report, ff_error *error);
+ff_status ff_motion_clean(const ff_rig *rig, const ff_clean_settings *settings, ff_motion *motion,
+                          const ff_plants *plants, ff_clean_report *report, ff_error *error);
 
 /* Measure a motion against the one it was made from (the same one: only the feet are judged). */
-ff_status ff_clean_measure(const ff_rig *rig, const ff_motion *before, const ff_motion *after,
-                           const ff_plants *plants, ff_clean_report *report, ff_error *error);
+ff_status ff_clean_measure(const ff_rig *rig, const ff_clean_settings *settings, const ff_motion *before,
+                           const ff_motion *after, const ff_plants *plants, ff_clean_report *report,
+                           ff_error *error);
 
 #endif

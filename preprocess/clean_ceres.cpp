@@ -119,6 +119,8 @@ class Knee : public ceres::SizedCostFunction<1, FF_CLEAN_LEG>
 
 void add_plants(ff_clean_problem *p, int first, int last, ceres::Problem &sum)
 {
+    double tie[FF_CLEAN_PLANT];
+    ff_clean_plant_tie(p, tie);
     for (int i = 0; i < p->plant_count; ++i) {
         ff_clean_plant &plant = p->plants[i];
         bool touched = false;
@@ -129,8 +131,7 @@ void add_plants(ff_clean_problem *p, int first, int last, ceres::Problem &sum)
         if (plant.settled)
             sum.SetParameterBlockConstant(plant.at);
         else
-            sum.AddResidualBlock(new Close<FF_CLEAN_PLANT>(plant.tied, ff_clean_plant_tie, 1.0), nullptr,
-                                 plant.at);
+            sum.AddResidualBlock(new Close<FF_CLEAN_PLANT>(plant.tied, tie, 1.0), nullptr, plant.at);
     }
 }
 

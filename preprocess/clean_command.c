@@ -1,6 +1,7 @@
 #include "preprocess/clean_command.h"
 
 #include "preprocess/build_clip.h"
+#include "preprocess/each_clip.h"
 #include "preprocess/filter.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
@@ -39,26 +40,14 @@ static void clean_one(void *context, uint32_t index)
     clean_run *run = context;
     ff_build_clip *c = &run->clips[index];
     ff_clip whole = {0};
-    if (c->status == FF_OK) c->status = ff_build_clip_read(c, &whole, &c->error);
+    if (c->status == FF_OK) c->status = ff_build_clip_read(c, &run->settings.find, &whole, &c->error);
     if (c->status == FF_OK)
         c->status = ff_motion_from_clip(&run->rig, &whole, &c->plants, &c->motion, &c->error);
     ff_clip_free(&whole);
     if (c->status == FF_OK)
-        c->status = ff_motion_clean(&run->rig, &c->motion, &c->plants, &c->cleaned, &c->error);
+        c->status = ff_motion_clean(&run->rig, &run->settings.cut.clean, &c->motion, &c->plants, &c->cleaned,
+                                    &c->error);
     ff_progress_step(run->progress, run->catalogue->entries[index].path);
-}
-
-/* One skeleton for all that could be read, as a build makes it. */
-static ff_status find_rig(clean_run *run, ff_error *error)
-{
-    int count = run->catalogue->count, good = 0;
-    const ff_clip **clips = ff_calloc((size_t)count, sizeof(const ff_clip *));
-    if (!clips) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %d clips", count);
-    for (int i = 0; i < count; ++i)
-        if (run->clips[i].status == FF_OK) clips[good++] = &run->clips[i].clip;
-    ff_status status = good > 0 ? ff_rig_from_clips(clips, good, &run->rig, error) : FF_OK;
-    free(clips);
-    return status;
 }
 
 /* ------------------------------------------------------------------------------------------------------- printing */
@@ -211,7 +200,7 @@ static ff_status clean_all(clean_run *run, uint32_t threads, bool quiet, ff_erro
     run->progress = ff_progress_start("reading", count, quiet);
     ff_tasks_for(tasks, count, 1, load_one, run);
     ff_progress_end(run->progress);
-    status = find_rig(run, error);
+    status = ff_build_median_rig(run->clips, (int)count, &run->rig, error);
     if (status == FF_OK) {
         run->progress = ff_progress_start("cleaning", count, quiet);
         ff_tasks_for(tasks, count, 1, clean_one, run);
@@ -221,15 +210,18 @@ static ff_status clean_all(clean_run *run, uint32_t threads, bool quiet, ff_erro
     return status;
 }
 
-static int clean_inputs(const ff_operands *inputs, clean_layout layout, uint32_t threads, bool quiet)
+static int clean_inputs(const ff_clip_run *command, const ff_operands *inputs, clean_layout layout,
+                        uint32_t threads)
 {
     ff_error error;
     ff_catalogue catalogue;
     if (ff_catalogue_read(inputs->items, inputs->count, &catalogue, &error) != FF_OK)
         return ff_command_fail(PROGRAM, &error);
     clean_run run = {.catalogue = &catalogue, .settings = ff_settings_default()};
-    int result = clean_all(&run, threads, quiet, &error) == FF_OK ? print_all(&run, layout)
-                                                                  : ff_command_fail(PROGRAM, &error);
+    ff_status status = FF_OK;
+    if (command->config) status = ff_settings_load(command->config, &run.settings, &error);
+    if (status == FF_OK) status = clean_all(&run, threads, command->quiet, &error);
+    int result = status == FF_OK ? print_all(&run, layout) : ff_command_fail(PROGRAM, &error);
     for (int i = 0; run.clips && i < catalogue.count; ++i)
         ff_build_clip_free(&run.clips[i]);
     free(run.clips);
@@ -239,18 +231,19 @@ static int clean_inputs(const ff_operands *inputs, clean_layout layout, uint32_t
 
 int ff_clean_command(int argc, char **argv)
 {
-    bool csv = false, quiet = false;
+    bool csv = false;
+    ff_clip_run run = {.program = PROGRAM, .what = "cleaning"};
     int64_t threads = ff_processor_count();
-    ff_option options[] = {
-        {.name = "--csv", .help = "one line per clip, with a header", .flag = &csv},
-        {.name = "--threads",
-         .value_name = "N",
-         .help = "threads to use; what is found does not depend on it",
-         .integer = &threads,
-         .low = 1,
-         .high = 256},
-        {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &quiet},
-        {0}};
+    ff_option options[] = {{.name = "--csv", .help = "one line per clip, with a header", .flag = &csv},
+                           {.name = "--threads",
+                            .value_name = "N",
+                            .help = "threads to use; what is found does not depend on it",
+                            .integer = &threads,
+                            .low = 1,
+                            .high = 256},
+                           FF_CONFIG_OPTION(run),
+                           FF_QUIET_OPTION(run),
+                           {0}};
     ff_command command = {
         .program = PROGRAM,
         .name = "clean",
@@ -270,6 +263,6 @@ int ff_clean_command(int argc, char **argv)
     };
     ff_operands operands;
     int result = ff_command_parse(&command, argc, argv, &operands);
-    if (result < 0) result = clean_inputs(&operands, csv ? CSV : TABLE, (uint32_t)threads, quiet);
+    if (result < 0) result = clean_inputs(&run, &operands, csv ? CSV : TABLE, (uint32_t)threads);
     return result;
 }

@@ -1,6 +1,5 @@
 #include "preprocess/clean_finish.h"
 
-#define FADE (10.0 / 120.0)       /* s */
 #define FOOT_UNDER 0.007          /* m, how far a heel or ball may be under its height on the ground ... */
 #define TOE_UNDER 0.006           /* ... and a toe tip */
 #define HEEL_MOST (20.0 * FF_DEG) /* by which a heel may rise where the leg is too short */
@@ -122,7 +121,7 @@ static void correct(const ff_rig *rig, ff_motion *motion, int frame, int foot, c
 static int fade_frames(const ff_clean_pins *pins, int index, int direction, double frame_time)
 {
     const ff_clean_pin *pin = &pins->items[index];
-    int fade = (int)(FADE / frame_time + 0.5);
+    int fade = (int)(pins->settings->fade / frame_time + 0.5);
     for (int i = 0; i < pins->count; ++i) {
         const ff_clean_pin *other = &pins->items[i];
         if (i == index || other->foot != pin->foot) continue;
@@ -166,7 +165,7 @@ static correction needed(const ff_rig *rig, const ff_motion *motion, const ff_cl
     const ff_clean_pin *pin = &pins->items[index];
     ff_clean_pose_read(motion, frame, &pose);
     return find_correction(rig, &pose, pin, &pins->plants[index],
-                           ff_clean_heel_share(pin, frame, motion->frame_time));
+                           ff_clean_heel_share(pins, pin, frame, motion->frame_time));
 }
 
 static pin_end end_of(const ff_rig *rig, const ff_motion *motion, const ff_clean_pins *pins, int index,

@@ -64,6 +64,7 @@ static ff_status make_knots(const ff_rig *rig, const ff_motion *motion, ff_clean
     int count = (motion->frame_count - 2 + stride) / stride + 1;
     *k = (knots){.stride = stride,
                  .problem = {.rig = rig,
+                             .settings = pins->settings,
                              .knot_time = stride * motion->frame_time,
                              .knot_count = count,
                              .plant_count = pins->count,

@@ -184,11 +184,12 @@ static ff_status measure_acceleration(const ff_rig *rig, const ff_motion *before
     return FF_OK;
 }
 
-ff_status ff_clean_measure(const ff_rig *rig, const ff_motion *before, const ff_motion *after,
-                           const ff_plants *plants, ff_clean_report *report, ff_error *error)
+ff_status ff_clean_measure(const ff_rig *rig, const ff_clean_settings *settings, const ff_motion *before,
+                           const ff_motion *after, const ff_plants *plants, ff_clean_report *report,
+                           ff_error *error)
 {
     ff_clean_pins pins;
-    ff_status status = ff_clean_pins_find(rig, before, plants, &pins, error);
+    ff_status status = ff_clean_pins_find(rig, settings, before, plants, &pins, error);
     if (status != FF_OK) return status;
     ff_clean_report *r = report;
     status = measure_pins(rig, before, &pins, &r->pin_median.before, &r->pin_worst.before, &r->skate.before,

@@ -7,16 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* m: a foot found flat whose heel is so much over its ball stands on the ball; so much under it, is broken capture. */
-#define HEEL_UP 0.02
-#define HEEL_DOWN 0.04
+#define HEEL_DOWN 0.04 /* m: a heel so much under the ball of a flat foot is broken capture */
 /* A ball that is slower (m/s) and lower (m) for a while (s) stands. */
 #define STILL 0.4
 #define STILL_HEIGHT 0.02
 #define STILL_LEAST 0.03
-#define RAMP (4.0 / 120.0)     /* s, in which a pin comes and goes */
-#define HEEL_OFF (8.0 / 120.0) /* s, in which a heel is let go before the foot is flat no more */
-#define ROLL_OFF 0.3           /* share of the roll over the ball in which the ball stays pinned */
+#define RAMP (4.0 / 120.0) /* s, in which a pin comes and goes */
+#define ROLL_OFF 0.3       /* share of the roll over the ball in which the ball stays pinned */
 
 void ff_clean_pins_free(ff_clean_pins *pins)
 {
@@ -49,10 +46,10 @@ void ff_clean_pin_weights(const ff_clean_pin *pin, int frame, double frame_time,
     if (pin->heel_free) *heel = 0.0;
 }
 
-double ff_clean_heel_share(const ff_clean_pin *pin, int frame, double frame_time)
+double ff_clean_heel_share(const ff_clean_pins *pins, const ff_clean_pin *pin, int frame, double frame_time)
 {
     if (pin->heel_free) return 0.0;
-    double release = ff_min(HEEL_OFF / frame_time, 0.5 * (pin->last - pin->first)) + 1.0;
+    double release = ff_min(pins->settings->heel_off / frame_time, 0.5 * (pin->last - pin->first)) + 1.0;
     return ff_smooth((pin->last + 1 - frame) / release);
 }
 
@@ -112,7 +109,7 @@ static ff_vec2 add_pin(const ff_rig *rig, const ff_motion *motion, const ff_plan
     if (pin.last >= motion->frame_count) pin.last = motion->frame_count - 1;
     mean_places(rig, motion, pin.foot, pin.first, pin.last, &heel, &ball);
     double rise = heel.y - ball.y;
-    pin.heel_free = !pin.flat || rise > HEEL_UP || rise < -HEEL_DOWN;
+    pin.heel_free = !pin.flat || rise > pins->settings->heel_up || rise < -HEEL_DOWN;
     ff_vec2 at = captured_place(rig, motion, plant, &pin, ball);
     ff_clean_plant place = {.tied = {at.b, at.a, plant->yaw},
                             .heel_height = pins->uneven ? heel.y : pins->rest,
@@ -158,14 +155,15 @@ static bool is_uneven(const ff_plants *plants)
     return false;
 }
 
-ff_status ff_clean_pins_find(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                             ff_clean_pins *out, ff_error *error)
+ff_status ff_clean_pins_find(const ff_rig *rig, const ff_clean_settings *settings, const ff_motion *motion,
+                             const ff_plants *plants, ff_clean_pins *out, ff_error *error)
 {
     size_t n = (size_t)plants->count;
     ff_vec3 rest[FF_BODY_COUNT];
     ff_rig_rest_pose(rig, rest);
     *out = (ff_clean_pins){.items = ff_calloc(n, sizeof *out->items),
                            .plants = ff_calloc(n, sizeof *out->plants),
+                           .settings = settings,
                            .rest = rest[FF_ROLE_BALL_L].y,
                            .uneven = is_uneven(plants)};
     ff_vec2 *off = ff_calloc(n, sizeof *off);

@@ -26,6 +26,7 @@ typedef struct ff_clean_knot {
 
 typedef struct ff_clean_problem {
     const ff_rig *rig;
+    const ff_clean_settings *settings;
     double knot_time; /* s */
     int knot_count, plant_count;
     ff_clean_knot *knots;
@@ -65,8 +66,9 @@ void ff_clean_knee_term(const ff_clean_problem *problem, int knot, int side, con
 /* 1 / sigma of each unknown: for staying where it was, and for its second derivative. Times ff_clean_knot_weight. */
 extern const double ff_clean_root_close[FF_CLEAN_ROOT], ff_clean_root_smooth[FF_CLEAN_ROOT];
 extern const double ff_clean_leg_close[FF_CLEAN_LEG], ff_clean_leg_smooth[FF_CLEAN_LEG];
-extern const double ff_clean_plant_tie[FF_CLEAN_PLANT];
 double ff_clean_knot_weight(const ff_clean_problem *problem);
+/* The same of a plant, for staying where the clip has it. */
+void ff_clean_plant_tie(const ff_clean_problem *problem, double out[FF_CLEAN_PLANT]);
 
 #ifdef __cplusplus
 }

@@ -3,13 +3,8 @@
 #include <string.h>
 
 /* How far off things may be: cleanup study, section 3.4. */
-#define PIN 0.002       /* m */
-#define GROUND 0.002    /* m */
-#define UNDER 0.003     /* m, heel and ball may be under the ground at no cost ... */
-#define UNDER_TOE 0.005 /* ... and the toe tip, whose height is known less well */
-#define KNEE_LEAST 3.0  /* degrees */
-#define KNEE 1.0        /* degrees */
-#define KNOT_RATE 30.0  /* Hz, of the knots the weights are meant for */
+#define KNEE 1.0       /* degrees */
+#define KNOT_RATE 30.0 /* Hz, of the knots the weights are meant for */
 
 #define PER_DEG(degrees) (1.0 / ((degrees)*FF_DEG))
 
@@ -21,7 +16,12 @@ const double ff_clean_leg_close[FF_CLEAN_LEG] = {PER_DEG(4.0), PER_DEG(4.0), PER
                                                  PER_DEG(6.0), PER_DEG(6.0), PER_DEG(6.0), PER_DEG(10.0)};
 const double ff_clean_leg_smooth[FF_CLEAN_LEG] = {1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0,
                                                   1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 1.0 / 40.0};
-const double ff_clean_plant_tie[FF_CLEAN_PLANT] = {1.0 / 0.003, 1.0 / 0.003, PER_DEG(6.0)};
+
+void ff_clean_plant_tie(const ff_clean_problem *problem, double out[FF_CLEAN_PLANT])
+{
+    out[0] = out[1] = 1.0 / problem->settings->tie;
+    out[2] = PER_DEG(6.0);
+}
 
 double ff_clean_knot_weight(const ff_clean_problem *problem)
 {
@@ -40,7 +40,7 @@ void ff_clean_pin_term(const ff_clean_problem *problem, int knot, int side, cons
 {
     const ff_clean_knot *at = &problem->knots[knot];
     const ff_clean_plant *planted = &problem->plants[at->plant[side]];
-    double weight = ff_clean_knot_weight(problem) / PIN;
+    double weight = ff_clean_knot_weight(problem) / problem->settings->pin;
     double strength[2] = {weight * at->heel[side], weight * at->ball[side]};
     ff_vec3 places[FF_FOOT_PLACES];
     ff_clean_slopes own;
@@ -78,9 +78,10 @@ void ff_clean_ground_term(const ff_clean_problem *problem, int knot, int side, c
     ff_vec3 places[FF_FOOT_PLACES];
     ff_clean_slopes own;
     ff_clean_foot(problem->rig, &at->pose, side, root, leg, places, slopes ? &own : NULL);
-    double weight = ff_clean_knot_weight(problem) / GROUND;
+    double weight = ff_clean_knot_weight(problem) / problem->settings->ground;
     for (int p = 0; p < FF_FOOT_PLACES; ++p) {
-        double lowest = at->ground[side] - (p == FF_FOOT_AT_TOE ? UNDER_TOE : UNDER);
+        double lowest = at->ground[side] -
+                        (p == FF_FOOT_AT_TOE ? problem->settings->under_toe : problem->settings->under);
         double under = lowest - places[p].y, w = under > 0.0 ? -weight : 0.0;
         residuals[p] = under > 0.0 ? weight * under : 0.0;
         if (slopes && slopes[0]) put_row(own.root[p][1], FF_CLEAN_ROOT, w, slopes[0] + p * FF_CLEAN_ROOT);
@@ -92,7 +93,8 @@ void ff_clean_knee_term(const ff_clean_problem *problem, int knot, int side, con
                         double *residuals, double **slopes)
 {
     double weight = ff_clean_knot_weight(problem) * PER_DEG(KNEE);
-    double lacking = KNEE_LEAST * FF_DEG - problem->knots[knot].pose.flexion[side] - leg[FF_CLEAN_KNEE];
+    double lacking =
+        problem->settings->knee * FF_DEG - problem->knots[knot].pose.flexion[side] - leg[FF_CLEAN_KNEE];
     residuals[0] = lacking > 0.0 ? weight * lacking : 0.0;
     if (!slopes || !slopes[0]) return;
     memset(slopes[0], 0, FF_CLEAN_LEG * sizeof *slopes[0]);

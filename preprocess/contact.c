@@ -2,11 +2,7 @@
 
 #include "preprocess/filter.h"
 
-/* A foot is thought slow below this share of the fastest it moves nearby (labels: a quarter of the swing's peak). */
-static const double SLOW_SHARE = 0.25, SLOWEST_LIMIT = 0.35, FASTEST_LIMIT = 1.7; /* -, m/s, m/s */
-static const double NEARBY = 0.4;                                                 /* s, about half a stride */
-static const double SHORTEST_SWING = 0.08, SHORTEST_CONTACT = 0.06;               /* s */
-static const double LEAST_SWING = 0.03;                                           /* m the ball is carried */
+static const double NEARBY = 0.4;  /* s, about half a stride */
 static const double RAISED = 0.04; /* m, surely off the floor */
 
 /* The slowest of the foot's points: near zero while any part of it is on the floor. */
@@ -20,13 +16,14 @@ static double lowest(const ff_foot_signals *s, int i)
     return ff_min(ff_min(s->height[FF_FOOT_HEEL][i], s->height[FF_FOOT_BALL][i]), s->height[FF_FOOT_TOE][i]);
 }
 
+/* A foot is thought slow below a share of the fastest it moves nearby (labels: a quarter of the swing's peak). */
 static double speed_limit(const ff_foot_signals *s, int i)
 {
     int reach = (int)(NEARBY * s->rate), from = i - reach, to = i + reach;
     double peak = 0.0;
     for (int k = from > 0 ? from : 0; k <= to && k < s->count; ++k)
         peak = ff_max(peak, slowest(s, k));
-    return ff_clamp(SLOW_SHARE * peak, SLOWEST_LIMIT, FASTEST_LIMIT);
+    return ff_clamp(s->settings->slow_share * peak, s->settings->slow_least, s->settings->slow_most);
 }
 
 /* Was the foot really lifted and carried between two contacts? */
@@ -36,8 +33,8 @@ static bool is_swing(const ff_foot_signals *s, int last, int first)
     double peak = 0.0;
     for (int i = last; i <= first; ++i)
         peak = ff_max(peak, slowest(s, i));
-    return first - last > SHORTEST_SWING * s->rate &&
-           (ff_length3(carried) > LEAST_SWING || peak > 2.0 * SLOWEST_LIMIT);
+    return first - last > s->settings->shortest_swing * s->rate &&
+           (ff_length3(carried) > s->settings->carried || peak > 2.0 * s->settings->slow_least);
 }
 
 /* Drop contacts that are too short, unless the clip cuts them. */
@@ -46,7 +43,7 @@ static int drop_short(const ff_foot_signals *s, ff_contact *contacts, int count)
     int kept = 0;
     for (int c = 0; c < count; ++c) {
         bool cut = contacts[c].first == 0 || contacts[c].last == s->count - 1;
-        if (contacts[c].last - contacts[c].first + 1 >= SHORTEST_CONTACT * s->rate || cut)
+        if (contacts[c].last - contacts[c].first + 1 >= s->settings->shortest * s->rate || cut)
             contacts[kept++] = contacts[c];
     }
     return kept;

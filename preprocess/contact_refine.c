@@ -2,15 +2,10 @@
 
 #include "preprocess/filter.h"
 
-/* All rules and limits here are those of the contact labels (labels README, "what a contact is"). */
+/* All rules and limits here, and those of the settings, are the contact labels' (labels README, "what a contact is"). */
 static const double SWING_REACH = 0.7; /* s: how far into the swing its peak is looked for */
-static const double HEEL_LOW = 0.05;   /* m: heel at contact, over its level in the contact */
-static const double BALL_LOW = 0.02;   /* m */
-static const double AT_LEVEL = 0.002;  /* m: a point that bears weight, over its level */
-static const double STILL = 0.3;       /* m/s: a point at rest */
 static const double CROSSING = 0.025;  /* s: how long noise may carry a speed to and fro over a limit */
 static const double TOES_UP = 0.02;    /* m: ball over heel when a foot rolls off backwards */
-static const double LIFTED = 0.005;    /* m: a point that bears no weight any more */
 
 /* Up to four estimates of one event. */
 typedef struct votes {
@@ -61,7 +56,8 @@ static void find_levels(const ff_foot_signals *s, ff_contact *c)
     for (int p = 0; p < FF_FOOT_POINT_COUNT; ++p) {
         for (int pass = 0, m = 0; pass < 2 && m == 0; ++pass) {
             for (int i = c->first; i <= c->last; i += step)
-                if (pass == 1 || (s->speed[FF_FOOT_HEEL][i] < STILL && s->speed[FF_FOOT_BALL][i] < STILL))
+                if (pass == 1 || (s->speed[FF_FOOT_HEEL][i] < s->settings->still &&
+                                  s->speed[FF_FOOT_BALL][i] < s->settings->still))
                     sample[m++] = s->height[p][i];
             if (m > 0) c->level[p] = ff_filter_quantile(sample, m, 0.5);
         }
@@ -107,7 +103,7 @@ static int comes_down(const ff_foot_signals *s, const ff_contact *c, int p, int 
 {
     int stay = (int)(CROSSING * s->rate), since = 0;
     for (int i = peak; i <= c->last; ++i) {
-        since = s->height[p][i] < c->level[p] + AT_LEVEL ? since + 1 : 0;
+        since = s->height[p][i] < c->level[p] + s->settings->at_level ? since + 1 : 0;
         if (since > stay) return i - stay;
     }
     return -1;
@@ -143,12 +139,14 @@ static void find_start(const ff_foot_signals *s, int previous_last, double runni
     int from = (int)ff_max(previous_last + 1, c->first - SWING_REACH * s->rate);
     from = clamp_frame(s, from);
     int peak = peak_of(s->speed[FF_FOOT_HEEL], from, c->first);
-    double limit = ff_clamp(0.25 * s->speed[FF_FOOT_HEEL][peak], 0.35, ff_lerp(0.9, 1.7, running));
+    double limit = ff_clamp(s->settings->slow_share * s->speed[FF_FOOT_HEEL][peak], s->settings->slow_least,
+                            ff_lerp(0.9, s->settings->slow_most, running));
     votes v = {.count = 0};
-    int heel = comes_to_rest(s, c, FF_FOOT_HEEL, peak, limit, HEEL_LOW);
+    int heel = comes_to_rest(s, c, FF_FOOT_HEEL, peak, limit, s->settings->heel_low);
     int ball_peak = peak_of(s->speed[FF_FOOT_BALL], from, c->first);
-    double ball_limit = ff_clamp(0.25 * s->speed[FF_FOOT_BALL][ball_peak], 0.35, ff_lerp(0.9, 1.7, running));
-    int ball = comes_to_rest(s, c, FF_FOOT_BALL, ball_peak, ball_limit, BALL_LOW);
+    double ball_limit = ff_clamp(s->settings->slow_share * s->speed[FF_FOOT_BALL][ball_peak],
+                                 s->settings->slow_least, ff_lerp(0.9, s->settings->slow_most, running));
+    int ball = comes_to_rest(s, c, FF_FOOT_BALL, ball_peak, ball_limit, s->settings->ball_low);
     int late = (int)(0.03 * s->rate), reach = (int)(0.05 * s->rate + 0.5);
     if (ball >= 0 && (heel < 0 || ball + late < heel)) {
         vote(&v, ball);
@@ -182,7 +180,7 @@ static int leaves_rest(const ff_foot_signals *s, const ff_contact *c, int p, int
 static int lifts(const ff_foot_signals *s, const ff_contact *c, int p, int before)
 {
     int i = before;
-    while (i > c->first && s->height[p][i] > c->level[p] + LIFTED)
+    while (i > c->first && s->height[p][i] > c->level[p] + s->settings->lifted)
         --i;
     return i;
 }
@@ -221,7 +219,8 @@ static void find_end(const ff_foot_signals *s, int next_first, double running, f
 {
     int to = clamp_frame(s, (int)ff_min(next_first - 1, c->last + SWING_REACH * s->rate));
     int peak = peak_of(s->speed[FF_FOOT_BALL], c->last, to > c->last ? to : c->last);
-    double limit = ff_clamp(0.25 * swing_peak(s, c, peak), 0.35, ff_lerp(0.9, 1.15, running));
+    double limit = ff_clamp(s->settings->slow_share * swing_peak(s, c, peak), s->settings->slow_least,
+                            ff_lerp(0.9, 1.15, running));
     int toe = leaves_rest(s, c, FF_FOOT_TOE, peak, limit);
     /* At the clip's end: still standing, or only just coming down. */
     if (c->last == s->count - 1 && (toe == peak || toe == c->first)) return;
@@ -241,14 +240,15 @@ static void find_end(const ff_foot_signals *s, int next_first, double running, f
 
 void ff_contact_find_flat(const ff_foot_signals *s, double running, ff_contact *c)
 {
-    double ball = ff_lerp(0.30, 0.6, running), heel = ff_lerp(0.35, 0.7, running);
+    const ff_plant_settings *set = s->settings;
+    double ball = set->flat_ball_speed * (1.0 + running), heel = set->flat_heel_speed * (1.0 + running);
     int begin = -1;
     find_levels(s, c);
     c->flat_first = c->flat_last = -1;
     for (int i = c->first; i <= c->last + 1; ++i) {
         bool flat = i <= c->last && s->speed[FF_FOOT_BALL][i] < ball && s->speed[FF_FOOT_HEEL][i] < heel &&
-                    s->height[FF_FOOT_HEEL][i] < c->level[FF_FOOT_HEEL] + 0.015 &&
-                    s->height[FF_FOOT_BALL][i] < c->level[FF_FOOT_BALL] + 0.02;
+                    s->height[FF_FOOT_HEEL][i] < c->level[FF_FOOT_HEEL] + set->flat_heel_up &&
+                    s->height[FF_FOOT_BALL][i] < c->level[FF_FOOT_BALL] + set->flat_ball_up;
         if (flat && begin < 0) begin = i;
         if (!flat && begin >= 0) {
             if (i - begin > c->flat_last - c->flat_first + 1 || c->flat_first < 0) {

@@ -62,22 +62,22 @@ static bool is_valley(const double *map, int row, int column)
     return true;
 }
 
-static bool far_enough(const double *x, const double *y)
+static bool far_enough(const double *x, const double *y, double spacing)
 {
     for (int i = 0; i < 2; ++i) {
         double d = fraction(x[i] - y[i]);
-        if (ff_min(d, 1.0 - d) < FF_PAIR_SPACING - 1e-12) return false;
+        if (ff_min(d, 1.0 - d) < spacing - 1e-12) return false;
     }
     return true;
 }
 
 /* Put a pair in its place, unless it is too near another one or would break the cyclic order. */
-static bool insert(ff_cycle_pairs *pairs, const double phase[2])
+static bool insert(ff_cycle_pairs *pairs, const double phase[2], double spacing)
 {
     int n = pairs->count, at = 0;
     if (n == FF_PAIRS_MAX) return false;
     for (int i = 0; i < n; ++i) {
-        if (!far_enough(phase, pairs->pair[i].phase)) return false;
+        if (!far_enough(phase, pairs->pair[i].phase, spacing)) return false;
         if (pairs->pair[i].phase[0] < phase[0]) at = i + 1;
     }
     if (n > 1) {
@@ -91,7 +91,8 @@ static bool insert(ff_cycle_pairs *pairs, const double phase[2])
 }
 
 /* Minima first, best ones first; then moments between them where the map is low too, as nobody should wait. */
-static ff_status select_moments(const double *map, ff_cycle_pairs *out, ff_error *error)
+static ff_status select_moments(const ff_correspondence_settings *set, const double *map, ff_cycle_pairs *out,
+                                ff_error *error)
 {
     moment *found = malloc(FF_MAP_SIDE * FF_MAP_SIDE * sizeof *found);
     if (!found) return ff_fail(error, FF_ERR_NO_MEMORY, "the minima of a distance map");
@@ -99,7 +100,7 @@ static ff_status select_moments(const double *map, ff_cycle_pairs *out, ff_error
     for (int row = 0; row < FF_MAP_SIDE; ++row) {
         for (int column = 0; column < FF_MAP_SIDE; ++column) {
             double distance = map[row * FF_MAP_SIDE + column];
-            if (distance > FF_MAP_LIMIT) continue;
+            if (distance > set->window) continue;
             bool minimum = is_minimum(map, row, column);
             if (minimum || is_valley(map, row, column))
                 found[count++] = (moment){distance, row, column, minimum};
@@ -108,7 +109,7 @@ static ff_status select_moments(const double *map, ff_cycle_pairs *out, ff_error
     qsort(found, (size_t)count, sizeof *found, by_worth);
     for (int i = 0; i < count; ++i) {
         const double phase[2] = {found[i].row / (double)FF_MAP_SIDE, found[i].column / (double)FF_MAP_SIDE};
-        insert(out, phase);
+        insert(out, phase, set->spacing);
     }
     free(found);
     return FF_OK;
@@ -128,8 +129,8 @@ static void measure(const ff_point_cycle *first, const ff_point_cycle *second, f
 }
 
 /* Measure pairs and let go of those beyond limit or, after refinement, out of order. */
-static void keep_good(const ff_cycle_side *first, const ff_cycle_side *second, double limit,
-                      ff_cycle_pairs *pairs)
+static void keep_good(const ff_correspondence_settings *set, const ff_cycle_side *first,
+                      const ff_cycle_side *second, double limit, ff_cycle_pairs *pairs)
 {
     ff_cycle_pairs all = *pairs;
     pairs->count = 0;
@@ -139,7 +140,7 @@ static void keep_good(const ff_cycle_side *first, const ff_cycle_side *second, d
             phase[k] = fraction(floor(all.pair[i].phase[k] * GRAIN + 0.5) / GRAIN);
         ff_cycle_pair pair = {.phase = {phase[0], phase[1]}};
         measure(first->cycle, second->cycle, &pair);
-        if (pair.distance > FF_MAP_LIMIT || pair.rms > limit || !insert(pairs, phase)) continue;
+        if (pair.distance > set->window || pair.rms > limit || !insert(pairs, phase, set->spacing)) continue;
         for (int k = 0; k < pairs->count; ++k)
             if (pairs->pair[k].phase[0] == phase[0]) pairs->pair[k] = pair;
     }
@@ -185,31 +186,33 @@ static void find_mean(const ff_cycle_side *first, const ff_cycle_side *second, f
 /* ------------------------------------------------------------------------------------------------------ all of it */
 
 /* The same event of the same foot in both: always in order. */
-static void pairs_of_keys(const ff_cycle_side *first, const ff_cycle_side *second, ff_cycle_pairs *out)
+static void pairs_of_keys(const ff_correspondence_settings *set, const ff_cycle_side *first,
+                          const ff_cycle_side *second, ff_cycle_pairs *out)
 {
     memset(out, 0, sizeof *out);
     out->by_keys = true;
     if (!first->keys || !second->keys) return;
     for (int k = 0; k < 4; ++k) {
         const double phase[2] = {(double)first->keys[k], (double)second->keys[k]};
-        insert(out, phase);
+        insert(out, phase, set->spacing);
     }
 }
 
-ff_status ff_correspond(const ff_cycle_side *first, const ff_cycle_side *second, double limit, double *map,
-                        ff_cycle_pairs *out, ff_error *error)
+ff_status ff_correspond(const ff_correspondence_settings *settings, const ff_cycle_side *first,
+                        const ff_cycle_side *second, double limit, double *map, ff_cycle_pairs *out,
+                        ff_error *error)
 {
     memset(out, 0, sizeof *out);
     ff_distance_map(first->windows, second->windows, map);
-    ff_status status = select_moments(map, out, error);
+    ff_status status = select_moments(settings, map, out, error);
     if (status == FF_OK && out->count > 0)
         status = ff_correspond_refine(first->cycle, second->cycle, 1.0 / FF_MAP_SIDE, out, error);
     if (status != FF_OK) return status;
-    keep_good(first, second, limit, out);
+    keep_good(settings, first, second, limit, out);
     if (out->count < ENOUGH) {
         ff_cycle_pairs keys;
-        pairs_of_keys(first, second, &keys);
-        keep_good(first, second, limit, &keys);
+        pairs_of_keys(settings, first, second, &keys);
+        keep_good(settings, first, second, limit, &keys);
         if (keys.count > out->count) *out = keys;
     }
     if (out->count == 0) return FF_OK;

@@ -4,7 +4,9 @@
 #define FF_CORRESPOND_H
 
 #include "preprocess/pose_distance.h"
+#include "preprocess/stage_settings.h"
 
+/* Defaults of the settings. */
 #define FF_PAIRS_MAX 12      /* no more fit with FF_PAIR_SPACING */
 #define FF_PAIR_SPACING 0.08 /* of a cycle, between two pairs in either cycle */
 /* Joints further apart than this at the pair itself (m, root mean square) are no pair: between straight walks, and
@@ -38,8 +40,9 @@ typedef struct ff_cycle_side {
 
 /* Pairs whose rms is at most limit; out->count = 0 when there is none. map [FF_MAP_SIDE^2] receives the
  * distances. */
-ff_status ff_correspond(const ff_cycle_side *first, const ff_cycle_side *second, double limit, double *map,
-                        ff_cycle_pairs *out, ff_error *error);
+ff_status ff_correspond(const ff_correspondence_settings *settings, const ff_cycle_side *first,
+                        const ff_cycle_side *second, double limit, double *map, ff_cycle_pairs *out,
+                        ff_error *error);
 
 /* Move the pairs to where the windows agree best, all of one correspondence together: phases by at most reach, alignment
  * free, the warp between the pairs even (correspond_ceres.cpp). */

@@ -8,6 +8,7 @@
 #include <string.h>
 
 typedef struct job {
+    const ff_correspondence_settings *settings;
     const ff_example_set *set;
     const ff_example *gait;
     const ff_rig *rig;
@@ -54,8 +55,9 @@ static void correspond_one(void *context, uint32_t index)
     ff_cycle_side first = side_of(j, item->from), second = side_of(j, other);
     bool straight = walks_straight(example_of(j, item->from)) && walks_straight(example_of(j, other));
     double *map = malloc(FF_MAP_SIDE * FF_MAP_SIDE * sizeof *map);
-    j->status[index] = map ? ff_correspond(&first, &second, straight ? FF_PAIR_LIMIT_STRAIGHT : FF_PAIR_LIMIT,
-                                           map, &item->pairs, &j->errors[index])
+    j->status[index] = map ? ff_correspond(j->settings, &first, &second,
+                                           straight ? j->settings->straight : j->settings->other, map,
+                                           &item->pairs, &j->errors[index])
                            : ff_fail(&j->errors[index], FF_ERR_NO_MEMORY, "a distance map");
     free(map);
 }
@@ -81,12 +83,14 @@ static void list_items(job *j)
     }
 }
 
-ff_status ff_correspond_set(const ff_rig *rig, const ff_example_set *set, const ff_example *gait,
-                            ff_tasks *tasks, ff_correspondences *out, ff_error *error)
+ff_status ff_correspond_set(const ff_correspondence_settings *settings, const ff_rig *rig,
+                            const ff_example_set *set, const ff_example *gait, ff_tasks *tasks,
+                            ff_correspondences *out, ff_error *error)
 {
     size_t n = (size_t)set->count, room = n * (n + 3) / 2; /* at least 2 n */
     *out = (ff_correspondences){.items = ff_calloc(room, sizeof *out->items)};
-    job j = {.set = set,
+    job j = {.settings = settings,
+             .set = set,
              .gait = gait,
              .rig = rig,
              .out = out,

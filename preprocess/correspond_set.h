@@ -18,8 +18,9 @@ typedef struct ff_correspondences {
 
 /* gait[i] is the semi-procedural clip at the rates of example i (frame_count 0 = there is none). The result does not
  * depend on the number of threads. The caller frees with ff_correspondences_free. */
-ff_status ff_correspond_set(const ff_rig *rig, const ff_example_set *set, const ff_example *gait,
-                            ff_tasks *tasks, ff_correspondences *out, ff_error *error);
+ff_status ff_correspond_set(const ff_correspondence_settings *settings, const ff_rig *rig,
+                            const ff_example_set *set, const ff_example *gait, ff_tasks *tasks,
+                            ff_correspondences *out, ff_error *error);
 void ff_correspondences_free(ff_correspondences *correspondences);
 
 #endif

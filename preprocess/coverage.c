@@ -1,5 +1,6 @@
 #include "preprocess/coverage.h"
 
+#include "preprocess/settings.h"
 #include "preprocess/successors.h"
 
 #include <stdlib.h>
@@ -92,7 +93,8 @@ ff_branching ff_coverage_branching(const ff_pack *pack)
     uint32_t own = 0;
     for (uint32_t i = 0; i < pack->action_count; ++i)
         own += !(pack->actions[i].flags & FF_ACTION_MIRRORED);
-    double limit = ff_join_limit((int)own);
+    ff_settings usual = ff_settings_default();
+    double limit = ff_join_limit(&usual.successors, (int)own);
     for (uint32_t i = 0; i < pack->action_count; ++i) {
         const ff_pack_action *a = &pack->actions[i];
         b.least = a->successor_count < b.least ? a->successor_count : b.least;

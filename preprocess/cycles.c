@@ -8,13 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PERIOD_MIN 0.4 /* s */
-#define PERIOD_MAX 2.0
 /* The root's low-pass sees 0.25 s; nearer to a clip's end than this it still follows the sway of the hips (s). */
 #define END_MARGIN 0.1
-/* Slower turns than this are a wobble of a straight walk (rad/s). */
-#define STRAIGHT_TURN 0.1f
-#define DRIFT 0.04f    /* m/s */
 #define CUT_STEP 0.03  /* s, between the cuts that are tried */
 #define CUT_SLACK 0.03 /* s, that a cut may be shorter or longer than from contact to contact */
 #define LOCK_MIN 0.08  /* share of the cycle; a shorter stance means the plants are wrong */
@@ -47,7 +42,8 @@ static int next_of(const ff_plants *plants, int from, int foot)
 
 /* Keys of the cycle that starts with plant index, a left one; false when contacts do not come in the order of a walk
  * (L on, R off, R on, L off) or a run (L on, L off, R on, R off), or a plant is cut by the clip's end. */
-static bool find_keys(const ff_plants *plants, int index, double frame_time, cycle *out)
+static bool find_keys(const ff_cycle_settings *set, const ff_plants *plants, int index, double frame_time,
+                      cycle *out)
 {
     const ff_plant *left = &plants->items[index], *right = NULL, *before = NULL;
     int next = next_of(plants, index, FF_LEFT);
@@ -55,7 +51,7 @@ static bool find_keys(const ff_plants *plants, int index, double frame_time, cyc
     int start = left->start, end = plants->items[next].start;
     *out = (cycle){0};
     double period = end - start;
-    if (period * frame_time < PERIOD_MIN || period * frame_time > PERIOD_MAX || left->end >= end)
+    if (period * frame_time < set->shortest || period * frame_time > set->longest || left->end >= end)
         return false;
     for (int i = 0; i < plants->count; ++i) {
         const ff_plant *plant = &plants->items[i];
@@ -85,7 +81,8 @@ static bool find_keys(const ff_plants *plants, int index, double frame_time, cyc
 
 /* Keys of half a cycle that starts with plant index, of either foot: it lands, the other one leaves and lands in its turn.
  * What follows is taken to be the mirror image. */
-static bool find_half_keys(const ff_plants *plants, int index, double frame_time, cycle *out)
+static bool find_half_keys(const ff_cycle_settings *set, const ff_plants *plants, int index,
+                           double frame_time, cycle *out)
 {
     const ff_plant *first = &plants->items[index], *before = NULL, *second = NULL;
     if (first->cut_start) return false;
@@ -101,7 +98,7 @@ static bool find_half_keys(const ff_plants *plants, int index, double frame_time
     int length = second->start - first->start, off = before->end + 1 - first->start;
     double period = 2.0 * length * frame_time;
     if (off <= 0 || off >= length || first->end < second->start) return false;
-    if (period < PERIOD_MIN || period > PERIOD_MAX) return false;
+    if (period < set->shortest || period > set->longest) return false;
     *out = (cycle){.start = first->start,
                    .length = length,
                    .half = true,
@@ -112,11 +109,12 @@ static bool find_half_keys(const ff_plants *plants, int index, double frame_time
 }
 
 /* People drift a little; a straight example must be straight, or no blend is (synthesis study, section 6). */
-static void straighten(ff_pack_example *record)
+static void straighten(const ff_cycle_settings *set, ff_pack_example *record)
 {
-    if (fabsf(record->v_forward) < DRIFT) record->v_forward = 0.0f;
-    if (fabsf(record->v_left) < DRIFT + 0.05f * fabsf(record->v_forward)) record->v_left = 0.0f;
-    if (fabsf(record->turn_rate) < (record->v_forward == 0.0f ? 0.5f : 1.0f) * STRAIGHT_TURN)
+    float drift = (float)set->drift;
+    if (fabsf(record->v_forward) < drift) record->v_forward = 0.0f;
+    if (fabsf(record->v_left) < drift + 0.05f * fabsf(record->v_forward)) record->v_left = 0.0f;
+    if (fabsf(record->turn_rate) < (record->v_forward == 0.0f ? 0.5f : 1.0f) * (float)set->straight)
         record->turn_rate = 0.0f;
 }
 
@@ -144,8 +142,8 @@ static ff_stretch best_cut(const ff_rig *rig, const ff_motion *motion, const cyc
     return best;
 }
 
-static ff_status make_example(const ff_rig *rig, const ff_motion *motion, const cycle *c, ff_stretch stretch,
-                              ff_example *out, ff_error *error)
+static ff_status make_example(const ff_cycle_settings *set, const ff_rig *rig, const ff_motion *motion,
+                              const cycle *c, ff_stretch stretch, ff_example *out, ff_error *error)
 {
     ff_steady_root root = ff_steady_root_of(motion, &stretch);
     double parts = c->half ? 2.0 : 1.0;
@@ -157,30 +155,31 @@ static ff_status make_example(const ff_rig *rig, const ff_motion *motion, const 
     if (c->half) record->flags |= FF_EXAMPLE_LOOSE;
     for (int k = 0; k < 4; ++k)
         record->key[k] = (float)(c->key[k] / (parts * c->length));
-    straighten(record);
+    straighten(set, record);
     ff_loop_find_contact_kick(rig, out);
     return FF_OK;
 }
 
 /* ---------------------------------------------------------------------------------------------------- cycles */
 
-typedef bool find_keys_of(const ff_plants *plants, int index, double frame_time, cycle *out);
+typedef bool find_keys_of(const ff_cycle_settings *set, const ff_plants *plants, int index, double frame_time,
+                          cycle *out);
 
 /* The cycle that begins with a plant is added, or counted as rejected. */
-static ff_status add_cycle(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                           int rest_frames, int index, find_keys_of *find, const char *clip_name,
-                           ff_cycles *out, ff_error *error)
+static ff_status add_cycle(const ff_cycle_settings *set, const ff_rig *rig, const ff_motion *motion,
+                           const ff_plants *plants, int rest_frames, int index, find_keys_of *find,
+                           const char *clip_name, ff_cycles *out, ff_error *error)
 {
     cycle c;
     int margin = (int)ceil(END_MARGIN / motion->frame_time);
     ff_example *example = &out->items[out->count];
     ++out->rejected;
-    if (!find(plants, index, motion->frame_time, &c) || c.start < rest_frames + margin ||
+    if (!find(set, plants, index, motion->frame_time, &c) || c.start < rest_frames + margin ||
         c.start + c.length + margin > motion->frame_count ||
         ff_breaks_within(&plants->breaks, c.start, c.start + c.length))
         return FF_OK;
     ff_stretch cut = best_cut(rig, motion, &c, rest_frames + margin, motion->frame_count - margin);
-    ff_status status = make_example(rig, motion, &c, cut, example, error);
+    ff_status status = make_example(set, rig, motion, &c, cut, example, error);
     if (status != FF_OK) return status;
     snprintf(example->name, sizeof example->name, "%.60s@%d%s", clip_name, c.start,
              c.half ? " and its mirror image" : "");
@@ -193,8 +192,9 @@ static ff_status add_cycle(const ff_rig *rig, const ff_motion *motion, const ff_
     return FF_OK;
 }
 
-ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int rest_frames,
-                        const char *clip_name, ff_cycles *out, ff_error *error)
+ff_status ff_cycles_cut(const ff_cycle_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                        const ff_plants *plants, int rest_frames, const char *clip_name, ff_cycles *out,
+                        ff_error *error)
 {
     memset(out, 0, sizeof *out);
     /* Whole ones begin with a left foot, half ones with either; + 1: an idle loop. */
@@ -203,17 +203,19 @@ ff_status ff_cycles_cut(const ff_rig *rig, const ff_motion *motion, const ff_pla
     ff_status status = FF_OK;
     for (int i = 0; i < plants->count && status == FF_OK; ++i)
         if (plants->items[i].foot == FF_LEFT)
-            status = add_cycle(rig, motion, plants, rest_frames, i, find_keys, clip_name, out, error);
+            status =
+                add_cycle(settings, rig, motion, plants, rest_frames, i, find_keys, clip_name, out, error);
     if (status != FF_OK) ff_cycles_free(out);
     return status;
 }
 
-ff_status ff_cycles_cut_half(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                             int rest_frames, const char *clip_name, ff_cycles *out, ff_error *error)
+ff_status ff_cycles_cut_half(const ff_cycle_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                             const ff_plants *plants, int rest_frames, const char *clip_name, ff_cycles *out,
+                             ff_error *error)
 {
     for (int i = 0; i < plants->count; ++i) {
         ff_status status =
-            add_cycle(rig, motion, plants, rest_frames, i, find_half_keys, clip_name, out, error);
+            add_cycle(settings, rig, motion, plants, rest_frames, i, find_half_keys, clip_name, out, error);
         if (status != FF_OK) return status;
     }
     return FF_OK;

@@ -5,9 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define IDLE_MIN 2.0 /* s */
-#define IDLE_MAX 4.0
-#define IDLE_STEP 0.1
+#define IDLE_STEP 0.1 /* s */
 
 /* Feet side by side: a lunge or a wide stance is no way to wait. */
 static bool feet_together(const ff_plant *left, const ff_plant *right, double heading)
@@ -16,14 +14,15 @@ static bool feet_together(const ff_plant *left, const ff_plant *right, double he
     return fabs(apart.a) < 0.15 && apart.b > 0.05 && apart.b < 0.4;
 }
 
-/* The stretch of 2 to 4 s inside [first, last] whose ends agree best; its seam, or a huge one. */
-static double best_loop(const ff_rig *rig, const ff_motion *motion, int first, int last, ff_stretch *best)
+/* The stretch inside [first, last] whose ends agree best; its seam, or a huge one. */
+static double best_loop(const ff_cycle_settings *set, const ff_rig *rig, const ff_motion *motion, int first,
+                        int last, ff_stretch *best)
 {
     int step = (int)ceil(IDLE_STEP / motion->frame_time);
     double seam = 1e9;
     for (int start = first; start < last; start += step) {
-        int shortest = (int)ceil(IDLE_MIN / motion->frame_time),
-            longest = (int)(IDLE_MAX / motion->frame_time);
+        int shortest = (int)ceil(set->idle_shortest / motion->frame_time),
+            longest = (int)(set->idle_longest / motion->frame_time);
         for (int length = shortest; length <= longest && start + length <= last; length += step) {
             ff_stretch stretch = {start, length, false};
             ff_steady_root root = ff_steady_root_still(motion, &stretch);
@@ -34,8 +33,9 @@ static double best_loop(const ff_rig *rig, const ff_motion *motion, int first, i
     return seam;
 }
 
-ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                             int rest_frames, const char *clip_name, ff_cycles *out, ff_error *error)
+ff_status ff_cycles_cut_idle(const ff_cycle_settings *set, const ff_rig *rig, const ff_motion *motion,
+                             const ff_plants *plants, int rest_frames, const char *clip_name, ff_cycles *out,
+                             ff_error *error)
 {
     ff_stretch best = {0, 0, false}, here;
     double seam = 1e9;
@@ -48,10 +48,10 @@ ff_status ff_cycles_cut_idle(const ff_rig *rig, const ff_motion *motion, const f
             int first = left->flat_start > right->flat_start ? left->flat_start : right->flat_start;
             int last = left->flat_end < right->flat_end ? left->flat_end : right->flat_end;
             if (first < rest_frames) first = rest_frames;
-            if ((last - first) * motion->frame_time < IDLE_MIN) continue;
+            if ((last - first) * motion->frame_time < set->idle_shortest) continue;
             if (!feet_together(left, right, motion->root[first].z)) continue;
             if (ff_breaks_within(&plants->breaks, first, last)) continue;
-            double found = best_loop(rig, motion, first, last, &here);
+            double found = best_loop(set, rig, motion, first, last, &here);
             if (found < seam) seam = found, best = here;
         }
     }

@@ -11,8 +11,6 @@
 
 #include <xxhash.h>
 
-static const double MODERATE = 1.2; /* m/s: the walk that starts and stops lead to */
-
 typedef enum recipe_kind { STAND, MOVE, START, STOP } recipe_kind;
 
 /* What may be derived, and which captured action would do instead. */
@@ -162,7 +160,8 @@ static ff_status derive_motion(const ff_derive_base *base, const recipe *what, f
 }
 
 /* Small steps on the spot are hard to find: their times are known. */
-static ff_status known_plants(const recipe *what, const ff_clip *clip, ff_plants *out, ff_error *error)
+static ff_status known_plants(const ff_find_settings *find, const recipe *what, const ff_clip *clip,
+                              ff_plants *out, ff_error *error)
 {
     double leaves[2], lands[2];
     ff_stance_times(&what->move, leaves, lands);
@@ -180,7 +179,7 @@ static ff_status known_plants(const recipe *what, const ff_clip *clip, ff_plants
         known[2 * i + 1] = edit;
     }
     ff_plant_edits edits = {.items = known, .count = 4, .all = true};
-    ff_status status = ff_plants_find_edited(clip, &edits, out, error);
+    ff_status status = ff_plants_find_edited(clip, find, &edits, out, error);
     for (int i = 0; status == FF_OK && i < out->count; ++i)
         out->items[i].written = false;
     out->found_count = 0; /* nobody needs to see what was found without knowing */
@@ -206,10 +205,12 @@ static ff_status derive_clip(const ff_derive_base *base, const ff_build_shared *
     ff_status status = derive_motion(base, what, &out->motion, error);
     if (status == FF_OK) status = clip_of(base->rig, &out->motion, what->name, &out->clip, error);
     if (status == FF_OK)
-        status = what->kind == MOVE ? known_plants(what, &out->clip, &out->plants, error)
-                                    : ff_plants_find(&out->clip, &out->plants, error);
+        status = what->kind == MOVE
+                     ? known_plants(&shared->settings->find, what, &out->clip, &out->plants, error)
+                     : ff_plants_find(&out->clip, &shared->settings->find, &out->plants, error);
     if (status == FF_OK)
-        status = ff_actions_cut(base->rig, &out->motion, &out->plants, -1, &out->actions, error);
+        status = ff_actions_cut(&shared->settings->cut, base->rig, &out->motion, &out->plants, -1,
+                                &out->actions, error);
     if (status == FF_OK) {
         status = ff_build_clip_store(out, shared);
         if (status != FF_OK) *error = out->error;
@@ -237,7 +238,8 @@ static bool choose_base(const ff_example_set *set, ff_derive_base *base)
         bool straight =
             r->gait == FF_GAIT_WALK && r->v_left == 0.0f && r->turn_rate == 0.0f && r->v_forward > 0.5f;
         if (!straight || (r->flags & (FF_EXAMPLE_IDLE | FF_EXAMPLE_MIRRORED))) continue;
-        double off = fabs((double)r->v_forward - MODERATE) + (r->flags & FF_EXAMPLE_DERIVED ? 1.0 : 0.0);
+        double off =
+            fabs((double)r->v_forward - base->settings->walk) + (r->flags & FF_EXAMPLE_DERIVED ? 1.0 : 0.0);
         if (off < best) {
             best = off;
             base->walk = &set->items[i];
@@ -252,7 +254,7 @@ ff_status ff_derive_actions(const ff_build_shared *shared, const ff_example_set 
 {
     *out = NULL;
     *out_count = 0;
-    ff_derive_base base = {.rig = shared->rig};
+    ff_derive_base base = {.rig = shared->rig, .settings = &shared->settings->actions};
     if (!choose_base(set, &base) || base.walk->clip < 0 || base.walk->clip >= count) return FF_OK;
     ff_build_clip *made = ff_calloc(RECIPE_COUNT, sizeof *made);
     if (!made) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for derived actions");

@@ -7,12 +7,10 @@
 static const double RATE = 60.0;      /* frames per second */
 static const double STANDS = 0.6;     /* s, before and after */
 static const double BOTH_DOWN = 0.10; /* s between the two feet's steps */
-static const double LIFT = 0.05,
-                    RISE = 0.25; /* m, rad: how high a stepping foot is lifted, and its heel before it */
+static const double RISE = 0.25;      /* rad, by which the heel of a stepping foot comes up before it */
 static const double SWAY = 0.035, DIP = 0.008; /* m, of the hips towards the foot that stays, and down */
 static const double HEAD_FIRST = 0.3;          /* share of a turn that the head is ahead at most */
-static const double START_SECONDS = 0.85, STOP_SECONDS = 0.75; /* of the one step: people take 0.7 to 1 s */
-static const double START_SHIFT = 0.35; /* of the step: the weight goes over before the foot leaves */
+static const double START_SHIFT = 0.35;        /* of the step: the weight goes over before the foot leaves */
 
 /* A pose with its feet in the world. */
 typedef struct body {
@@ -156,7 +154,7 @@ ff_status ff_derive_stance_move(const ff_derive_base *base, const ff_stance_move
         for (int i = 0; i < 2; ++i) {
             int foot = i ? 1 - move->first : move->first;
             b.feet[foot] = swing(&before.feet[foot], &after.feet[foot], (time - from[i]) / (to[i] - from[i]),
-                                 LIFT, RISE);
+                                 base->settings->lift, RISE);
         }
         /* Towards the foot that stays: first the other one, then the one that went first. */
         double over = hump(time, begin, from[1]) - 0.7 * hump(time, to[0], end + 0.1);
@@ -222,25 +220,27 @@ ff_status ff_derive_start(const ff_derive_base *base, ff_motion *out, ff_error *
 {
     over_right w = pass_over_right(base);
     body stand = stand_at_right(base, &w), landed = walk_body(base, &w, 1.0);
-    double begin = STANDS, contact = begin + START_SECONDS, leaves = begin + START_SHIFT * START_SECONDS;
+    double begin = STANDS, contact = begin + base->settings->start,
+           leaves = begin + START_SHIFT * base->settings->start;
     double end = contact + 0.75 * w.period;
     ff_status status = ff_motion_alloc(out, frames_of(end), 1.0 / RATE, error);
     for (int k = 0; status == FF_OK && k < out->frame_count; ++k) {
         double time = k / RATE, t = time - begin;
-        double phase = time >= contact ? 1.0 + (time - contact) / w.period
-                                       : hermite(w.middle, 0.0, 1.0, 1.0 / w.period, t, START_SECONDS);
+        double phase = time >= contact
+                           ? 1.0 + (time - contact) / w.period
+                           : hermite(w.middle, 0.0, 1.0, 1.0 / w.period, t, base->settings->start);
         body walk = walk_body(base, &w, phase), b = walk;
         if (time < contact) {
             double mix = share(time, begin, contact);
             mix_bodies(&stand, &walk, mix, &b);
-            b.root = ff_v3(hermite(stand.root.x, 0.0, landed.root.x, w.speed, t, START_SECONDS),
+            b.root = ff_v3(hermite(stand.root.x, 0.0, landed.root.x, w.speed, t, base->settings->start),
                            ff_lerp(stand.root.y, 0.0, mix), 0.0);
             b.hips.y -= SWAY * hump(time, begin, contact);
             /* The walk's foot as seen from this root. */
             ff_foot_target goal = walk.feet[FF_LEFT];
             goal.ball.z += b.root.x - walk.root.x;
             b.feet[FF_LEFT] = swing(&stand.feet[FF_LEFT], &goal, (time - leaves) / (contact - leaves),
-                                    LIFT * (1.0 - mix), RISE * (1.0 - mix));
+                                    base->settings->lift * (1.0 - mix), RISE * (1.0 - mix));
             b.feet[FF_RIGHT] = mix_feet(&stand.feet[FF_RIGHT], &walk.feet[FF_RIGHT], mix);
         }
         put_frame(base->rig, &b, k, out);
@@ -253,28 +253,30 @@ ff_status ff_derive_stop(const ff_derive_base *base, ff_motion *out, ff_error *e
     const ff_pack_example *r = &base->walk->record;
     over_right w = pass_over_right(base);
     /* The last step begins when the right foot is whole on the floor, some 0.08 of the cycle after its contact. */
-    double first = (double)r->key[2] + 0.08, lead = 0.7 * w.period, begin = lead, end = begin + STOP_SECONDS;
+    double first = (double)r->key[2] + 0.08, lead = 0.7 * w.period, begin = lead,
+           end = begin + base->settings->stop;
     double off =
         (double)r->key[3] > first ? (double)r->key[3] : first + 0.05; /* phase, the left toes leave */
     body stand = stand_at_right(base, &w), from = walk_body(base, &w, first), toes = walk_body(base, &w, off);
-    double leaves = begin + (off - first) * w.period, lands = begin + 0.8 * STOP_SECONDS;
+    double leaves = begin + (off - first) * w.period, lands = begin + 0.8 * base->settings->stop;
     ff_status status = ff_motion_alloc(out, frames_of(end + STANDS), 1.0 / RATE, error);
     for (int k = 0; status == FF_OK && k < out->frame_count; ++k) {
         double time = k / RATE, t = time - begin;
         double phase = time <= begin ? first + t / w.period
-                                     : hermite(first, 1.0 / w.period, w.middle, 0.0, t, STOP_SECONDS);
+                                     : hermite(first, 1.0 / w.period, w.middle, 0.0, t, base->settings->stop);
         body walk = walk_body(base, &w, phase), b = walk;
         if (time > begin) {
             double mix = share(time, begin, end);
             mix_bodies(&walk, &stand, mix, &b);
-            b.root = ff_v3(hermite(from.root.x, w.speed, stand.root.x, 0.0, t, STOP_SECONDS),
+            b.root = ff_v3(hermite(from.root.x, w.speed, stand.root.x, 0.0, t, base->settings->stop),
                            ff_lerp(0.0, stand.root.y, mix), 0.0);
             b.feet[FF_RIGHT] = mix_feet(&walk.feet[FF_RIGHT], &stand.feet[FF_RIGHT], mix);
             /* The left toes leave where and when the walk's would. */
             body here = walk_body(base, &w, ff_min(first + t / w.period, off));
-            b.feet[FF_LEFT] = time < leaves ? here.feet[FF_LEFT]
-                                            : swing(&toes.feet[FF_LEFT], &stand.feet[FF_LEFT],
-                                                    (time - leaves) / (lands - leaves), LIFT, RISE);
+            b.feet[FF_LEFT] = time < leaves
+                                  ? here.feet[FF_LEFT]
+                                  : swing(&toes.feet[FF_LEFT], &stand.feet[FF_LEFT],
+                                          (time - leaves) / (lands - leaves), base->settings->lift, RISE);
             b.hips.y -= 0.5 * SWAY * hump(time, begin, end);
         }
         put_frame(base->rig, &b, k, out);

@@ -10,6 +10,7 @@ typedef struct ff_derive_base {
     const ff_rig *rig;
     const ff_example *stand; /* its first frame is how people stand */
     const ff_example *walk;  /* straight ahead */
+    const ff_actions_settings *settings;
 } ff_derive_base;
 
 /* Both feet from one stance to another, one after the other; standing before and after. */

@@ -4,6 +4,30 @@
 
 #include "mocap/catalogue.h"
 #include "preprocess/plants.h"
+#include "runtime/tool/command_line.h"
+
+/* What the command was told: its options point here. */
+typedef struct ff_clip_run {
+    const char *program, *what; /* what: for the progress line */
+    const char *config;         /* settings, or NULL for the defaults */
+    bool quiet;
+} ff_clip_run;
+
+/* Options for both, to stand among the command's own. */
+#define FF_CONFIG_OPTION(run)                                                                                \
+    {                                                                                                        \
+        .name = "--config", .value_name = "FILE",                                                            \
+        .help = "settings as JSON; 'footfall-pack config' prints them all", .text = &(run).config            \
+    }
+#define FF_QUIET_OPTION(run)                                                                                 \
+    {                                                                                                        \
+        .name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &(run).quiet              \
+    }
+
+/* Every entry of the inputs (files, folders, catalogues) is visited; the ones that fail are named on stderr and make the
+ * exit status, which is returned, 1. */
+typedef ff_status (*ff_entry_visit)(const ff_catalogue_entry *entry, void *context, ff_error *error);
+int ff_each_entry(const ff_clip_run *run, const ff_operands *inputs, ff_entry_visit visit, void *context);
 
 /* One clip, read, single broken frames put back (breaks: all that was broken), plants found, or written by a person beside
  * the clip. */
@@ -15,10 +39,6 @@ typedef struct ff_seen_clip {
 } ff_seen_clip;
 
 typedef ff_status (*ff_clip_visit)(const ff_seen_clip *seen, void *context, ff_error *error);
-
-/* Every clip of the inputs (files, folders, catalogues) is tried; the ones that fail are named on stderr and make the
- * exit status, which is returned, 1. what: for the progress line. */
-int ff_each_clip(const char *program, const char *what, const char *const *inputs, int count, bool quiet,
-                 ff_clip_visit visit, void *context);
+int ff_each_clip(const ff_clip_run *run, const ff_operands *inputs, ff_clip_visit visit, void *context);
 
 #endif

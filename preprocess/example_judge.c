@@ -2,26 +2,13 @@
 
 #include <stdio.h>
 
-/* What a cycle may cost to be used: seam (m) and wander (rad). Turns never close as well as straight walks do
- * (synthesis study, section 1). */
-#define SEAM_STRAIGHT 0.05
-#define SEAM_OTHER 0.08
-#define WANDER 0.2
-#define SEAM_IDLE 0.015
-/* For want of anything better: the seam is smoothed, but may be seen. */
-#define LOOSE_MOVED 0.10
+/* For want of anything better; how far closing may then move a joint is a setting. */
 #define LOOSE_WANDER 0.4
-#define LOOSE_LOCK 0.25
+#define LOOSE_STANCE 0.25
 #define LOOSE_UPRIGHT 0.85
-#define RESTLESS 0.03 /* m */
-#define LOCK_WALK                                                                                            \
-    0.4 /* of the cycle; people stand on a foot for 0.6 of it, and a shorter lock comes of a capture fault */
-#define CROSSED 0.08   /* m */
-#define RUN_PERIOD 0.6 /* s; people take 0.65 or more from contact to the same foot's next */
-#define UPRIGHT 0.9    /* of the hips' height in the rest pose; lower ones crouch */
-#define WALK_SPEED 2.4 /* m/s, rad/s */
-#define WALK_TURN 2.6
-#define RUN_SPEED 1.5
+/* Of who stands: mean distance of the ends (m), and of the largest way of any joint over the loop. */
+#define SEAM_IDLE 0.015
+#define RESTLESS 0.03
 
 bool ff_example_is_straight(const ff_example *e)
 {
@@ -99,42 +86,46 @@ static void at_least(verdict *v, double value, double limit, double scale, const
     snprintf(v->why, v->size, "%s %.1f, at least %.1f", text, value * scale, limit * scale);
 }
 
-static void judge_closing(verdict *v, const ff_example *e)
+static void judge_closing(const ff_example_settings *set, verdict *v, const ff_example *e)
 {
     bool straight = ff_example_is_straight(e) && e->record.gait == FF_GAIT_WALK;
-    at_most(v, (double)e->record.seam, straight ? SEAM_STRAIGHT : SEAM_OTHER, 100.0, "its ends differ by cm");
-    at_most(v, (double)e->loop.moved, straight ? FF_LOOP_MOVED_STRAIGHT : FF_LOOP_MOVED, 100.0,
+    at_most(v, (double)e->record.seam, straight ? set->seam_straight : set->seam, 100.0,
+            "its ends differ by cm");
+    at_most(v, (double)e->loop.moved, straight ? set->moved_straight : set->moved, 100.0,
             "closing moves a joint by cm");
     at_most(v, (double)e->loop.jump, FF_LOOP_JUMP, 1000.0, "still jumps by mm");
     at_most(v, (double)e->loop.cut_kick, (double)e->loop.contact_kick, 100.0,
             "velocities differ at the cut more than at a contact: cm/s");
 }
 
-bool ff_example_judge(const ff_rig *rig, const ff_example *e, char *why, size_t size)
+bool ff_example_judge(const ff_example_settings *set, const ff_rig *rig, const ff_example *e, char *why,
+                      size_t size)
 {
     verdict v = {why, size, true};
     double speed = ff_length2(ff_v2((double)e->record.v_forward, (double)e->record.v_left));
-    at_least(&v, mean_height(e), UPRIGHT * rig->offset[FF_ROLE_HIPS].y, 100.0, "crouches: hips at cm");
+    at_least(&v, mean_height(e), set->upright * rig->offset[FF_ROLE_HIPS].y, 100.0, "crouches: hips at cm");
     if (e->record.flags & FF_EXAMPLE_IDLE) {
         at_most(&v, (double)e->record.seam, SEAM_IDLE, 100.0, "its ends differ by cm");
         if (v.good) at_most(&v, restlessness(rig, e), RESTLESS, 100.0, "does not stand still: joints go cm");
         return v.good;
     }
-    judge_closing(&v, e);
-    at_most(&v, e->wander, WANDER, 1.0 / FF_DEG, "no steady turn: heading wanders by degrees");
-    at_most(&v, crossing(e), CROSSED, 100.0, "legs cross by cm");
+    judge_closing(set, &v, e);
+    at_most(&v, e->wander, set->wander, 1.0 / FF_DEG, "no steady turn: heading wanders by degrees");
+    at_most(&v, crossing(e), set->crossed, 100.0, "legs cross by cm");
     if (e->record.gait == FF_GAIT_RUN) {
-        at_least(&v, (double)e->record.v_forward, RUN_SPEED, 1.0, "runs at m/s");
-        at_least(&v, (double)e->record.period, RUN_PERIOD, 1000.0, "no running cycle: ms");
+        at_least(&v, (double)e->record.v_forward, set->run_speed, 1.0, "runs at m/s");
+        at_least(&v, (double)e->record.period, set->run_period, 1000.0, "no running cycle: ms");
         return v.good;
     }
-    at_least(&v, shortest_lock(e), LOCK_WALK, 100.0, "a foot stands for % of the cycle");
-    at_most(&v, speed, WALK_SPEED, 1.0, "walks at m/s");
-    at_most(&v, fabs((double)e->record.turn_rate), WALK_TURN, 1.0 / FF_DEG, "turns by degrees per second");
+    at_least(&v, shortest_lock(e), set->stance, 100.0, "a foot stands for % of the cycle");
+    at_most(&v, speed, set->walk_speed, 1.0, "walks at m/s");
+    at_most(&v, fabs((double)e->record.turn_rate), set->walk_turn, 1.0 / FF_DEG,
+            "turns by degrees per second");
     return v.good;
 }
 
-bool ff_example_judge_loosely(const ff_rig *rig, const ff_example *e, char *why, size_t size)
+bool ff_example_judge_loosely(const ff_example_settings *set, const ff_rig *rig, const ff_example *e,
+                              char *why, size_t size)
 {
     verdict v = {why, size, true};
     if (!ff_example_is_model(e)) {
@@ -142,11 +133,11 @@ bool ff_example_judge_loosely(const ff_rig *rig, const ff_example *e, char *why,
         return false;
     }
     at_least(&v, mean_height(e), LOOSE_UPRIGHT * rig->offset[FF_ROLE_HIPS].y, 100.0, "crouches: hips at cm");
-    at_most(&v, (double)e->loop.moved, LOOSE_MOVED, 100.0, "closing moves a joint by cm");
+    at_most(&v, (double)e->loop.moved, set->moved_loose, 100.0, "closing moves a joint by cm");
     at_most(&v, (double)e->loop.jump, FF_LOOP_JUMP, 1000.0, "still jumps by mm");
     at_most(&v, e->wander, LOOSE_WANDER, 1.0 / FF_DEG, "no steady turn: heading wanders by degrees");
-    at_most(&v, crossing(e), CROSSED, 100.0, "legs cross by cm");
-    at_least(&v, shortest_lock(e), LOOSE_LOCK, 100.0, "a foot stands for % of the cycle");
-    at_most(&v, (double)e->record.v_forward, WALK_SPEED, 1.0, "walks at m/s");
+    at_most(&v, crossing(e), set->crossed, 100.0, "legs cross by cm");
+    at_least(&v, shortest_lock(e), LOOSE_STANCE, 100.0, "a foot stands for % of the cycle");
+    at_most(&v, (double)e->record.v_forward, set->walk_speed, 1.0, "walks at m/s");
     return v.good;
 }

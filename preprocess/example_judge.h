@@ -4,7 +4,7 @@
 
 #include "preprocess/example.h"
 
-/* What closing a cycle may do: m. Straight walks close better than anything else. */
+/* What closing a cycle may do, unless the settings say otherwise: m. Straight walks close better than anything else. */
 #define FF_LOOP_JUMP 0.001
 #define FF_LOOP_MOVED_STRAIGHT 0.02
 #define FF_LOOP_MOVED 0.05
@@ -17,8 +17,10 @@ bool ff_example_is_straight(const ff_example *example);
 bool ff_example_is_model(const ff_example *example);
 
 /* May the pack use it? If not, why is a sentence with the figure that is too high or too low. */
-bool ff_example_judge(const ff_rig *rig, const ff_example *example, char *why, size_t size);
+bool ff_example_judge(const ff_example_settings *settings, const ff_rig *rig, const ff_example *example,
+                      char *why, size_t size);
 /* The same with the wider limits for want of anything better (FF_EXAMPLE_LOOSE): straight walks only. */
-bool ff_example_judge_loosely(const ff_rig *rig, const ff_example *example, char *why, size_t size);
+bool ff_example_judge_loosely(const ff_example_settings *settings, const ff_rig *rig,
+                              const ff_example *example, char *why, size_t size);
 
 #endif

@@ -16,10 +16,6 @@
 #define KNEE_COST 0.2     /* m per rad */
 #define TURN_COST 0.2     /* m, more than any seam */
 #define STRANGER_COST 1.0 /* m, far more than any seam: others are taken where the base person has none */
-/* Examples are at least this far apart (m/s). */
-#define SPACING_WALK 0.15
-#define SPACING_RUN 0.4
-
 static ff_vec3 point_of(const ff_example *e)
 {
     return ff_v3((double)e->record.v_forward, (double)e->record.v_left,
@@ -93,7 +89,7 @@ static int choose(const candidate *list, int count, int subject, uint32_t gait, 
 
 /* The subject whose forward walks cover most rates; straight ones, which people walk most, count more, those whose
  * knees lock half. */
-static int find_base(const candidate *list, int count, int *chosen)
+static int find_base(const ff_example_settings *set, const candidate *list, int count, int *chosen)
 {
     int best = -1, most = 0;
     for (int i = 0; i < count; ++i) {
@@ -101,7 +97,7 @@ static int find_base(const candidate *list, int count, int *chosen)
         for (int k = 0; k < i && !seen; ++k)
             seen = list[k].subject == list[i].subject;
         if (seen) continue;
-        int taken = choose(list, count, list[i].subject, FF_GAIT_WALK, SPACING_WALK, count, chosen),
+        int taken = choose(list, count, list[i].subject, FF_GAIT_WALK, set->walk_spacing, count, chosen),
             covered = 0;
         for (int k = 0; k < taken; ++k) {
             const ff_example *e = list[chosen[k]].example;
@@ -115,15 +111,15 @@ static int find_base(const candidate *list, int count, int *chosen)
 }
 
 /* Usable? If not, the set remembers why, of each cycle once. */
-static bool judge(const ff_rig *rig, ff_example *e, ff_example_set *set)
+static bool judge(const ff_example_settings *settings, const ff_rig *rig, ff_example *e, ff_example_set *set)
 {
     bool half = (e->record.flags & FF_EXAMPLE_LOOSE) != 0;
     ff_left_out *out = &set->left_out[set->left_out_count];
     if (half && set->level < FF_LEVEL_HALF) return false;
-    if (ff_example_judge(rig, e, out->why, sizeof out->why)) return true;
+    if (ff_example_judge(settings, rig, e, out->why, sizeof out->why)) return true;
     if (set->level == FF_LEVEL_LOOSE) {
         char why[sizeof out->why];
-        if (!ff_example_judge_loosely(rig, e, why, sizeof why)) return false;
+        if (!ff_example_judge_loosely(settings, rig, e, why, sizeof why)) return false;
         e->record.flags |= FF_EXAMPLE_LOOSE;
         return true;
     }
@@ -134,14 +130,14 @@ static bool judge(const ff_rig *rig, ff_example *e, ff_example_set *set)
 }
 
 /* The cycles that may be used at the set's level. */
-static int list_candidates(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
-                           candidate *list, ff_example_set *set)
+static int list_candidates(const ff_example_settings *settings, const ff_rig *rig, ff_cycles *cycles,
+                           const int *subject, int clip_count, candidate *list, ff_example_set *set)
 {
     int count = 0;
     for (int c = 0; c < clip_count; ++c) {
         for (int i = 0; i < cycles[c].count; ++i) {
             ff_example *e = &cycles[c].items[i];
-            if (!judge(rig, e, set)) continue;
+            if (!judge(settings, rig, e, set)) continue;
             list[count] = (candidate){e, subject[c], count, cost_of(e)};
             ++count;
         }
@@ -164,11 +160,11 @@ static int keep_best_loose(candidate *list, int count)
 }
 
 /* The first level at which there is a walk to make others from. Returns -1 when there is none at any. */
-static int find_candidates(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
-                           candidate *list, ff_example_set *set)
+static int find_candidates(const ff_example_settings *settings, const ff_rig *rig, ff_cycles *cycles,
+                           const int *subject, int clip_count, candidate *list, ff_example_set *set)
 {
     for (set->level = FF_LEVEL_FIRM; set->level <= FF_LEVEL_LOOSE; ++set->level) {
-        int count = list_candidates(rig, cycles, subject, clip_count, list, set);
+        int count = list_candidates(settings, rig, cycles, subject, clip_count, list, set);
         if (set->level == FF_LEVEL_LOOSE) count = keep_best_loose(list, count);
         for (int i = 0; i < count; ++i)
             if (ff_example_is_model(list[i].example)) return count;
@@ -304,12 +300,12 @@ static int by_rates(const void *x, const void *y)
     return p.y > q.y ? -1 : (p.y < q.y ? 1 : 0);
 }
 
-static ff_status fill_set(const ff_rig *rig, candidate *list, int count, const int *subject, int *chosen,
-                          ff_example_set *out, ff_error *error)
+static ff_status fill_set(const ff_example_settings *settings, const ff_rig *rig, candidate *list, int count,
+                          const int *subject, int *chosen, ff_example_set *out, ff_error *error)
 {
     const int room = 2 * (FF_EXAMPLES_MAX_WALKS + FF_EXAMPLES_MAX_RUNS);
     out->candidates = count;
-    out->base = find_base(list, count, chosen);
+    out->base = find_base(settings, list, count, chosen);
     for (int i = 0; i < count; ++i)
         if (list[i].subject != out->base) list[i].cost += STRANGER_COST;
     qsort(list, (size_t)count, sizeof *list, by_cost);
@@ -317,7 +313,7 @@ static ff_status fill_set(const ff_rig *rig, candidate *list, int count, const i
     for (uint32_t gait = FF_GAIT_WALK; gait <= FF_GAIT_RUN; ++gait) {
         /* Half of the room: the rest is for mirror images and what has to be made up. */
         int limit = (gait == FF_GAIT_WALK ? FF_EXAMPLES_MAX_WALKS - 12 : FF_EXAMPLES_MAX_RUNS) / 2;
-        double spacing = gait == FF_GAIT_WALK ? SPACING_WALK : SPACING_RUN;
+        double spacing = gait == FF_GAIT_WALK ? settings->walk_spacing : settings->run_spacing;
         int taken = choose(list, count, -1, gait, spacing, limit, chosen);
         for (int i = 0; i < taken && status == FF_OK; ++i)
             status = add_example(rig, out, room, list[chosen[i]].example, error);
@@ -338,8 +334,8 @@ static ff_status fill_set(const ff_rig *rig, candidate *list, int count, const i
     return status;
 }
 
-ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
-                             ff_example_set *out, ff_error *error)
+ff_status ff_examples_select(const ff_example_settings *settings, const ff_rig *rig, ff_cycles *cycles,
+                             const int *subject, int clip_count, ff_example_set *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
     size_t all = 0;
@@ -351,9 +347,9 @@ ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *su
     out->left_out = ff_calloc(all + 1, sizeof *out->left_out);
     ff_status status;
     if (list && chosen && out->items && out->left_out) {
-        int count = find_candidates(rig, cycles, subject, clip_count, list, out);
-        status = count < 0 ? ff_examples_fail(rig, cycles, clip_count, error)
-                           : fill_set(rig, list, count, subject, chosen, out, error);
+        int count = find_candidates(settings, rig, cycles, subject, clip_count, list, out);
+        status = count < 0 ? ff_examples_fail(settings, rig, cycles, clip_count, error)
+                           : fill_set(settings, rig, list, count, subject, chosen, out, error);
     } else {
         status = ff_fail(error, FF_ERR_NO_MEMORY, "choosing among %zu gait cycles", all);
     }

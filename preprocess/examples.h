@@ -37,8 +37,8 @@ typedef struct ff_example_set {
  * turning in place, side steps, slow and backward walks. Chosen cycles move out of cycles. When no whole straight walk is
  * good enough, the next level's are taken and marked FF_EXAMPLE_LOOSE. Fails with FF_ERR_NO_DATA, saying what there is
  * instead, when there is no straight walk at all. */
-ff_status ff_examples_select(const ff_rig *rig, ff_cycles *cycles, const int *subject, int clip_count,
-                             ff_example_set *out, ff_error *error);
+ff_status ff_examples_select(const ff_example_settings *settings, const ff_rig *rig, ff_cycles *cycles,
+                             const int *subject, int clip_count, ff_example_set *out, ff_error *error);
 void ff_example_set_free(ff_example_set *set);
 
 #endif

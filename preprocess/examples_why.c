@@ -43,7 +43,8 @@ static void add(char *text, size_t size, int count, const char *what)
 }
 
 /* Of the straight walks the one that closes best, and what is wrong with it all the same: " (name: why)". */
-static void explain_best(const ff_rig *rig, const ff_cycles *cycles, int clip_count, char *text, size_t size)
+static void explain_best(const ff_example_settings *settings, const ff_rig *rig, const ff_cycles *cycles,
+                         int clip_count, char *text, size_t size)
 {
     const ff_example *best = NULL;
     char why[96] = "";
@@ -52,11 +53,12 @@ static void explain_best(const ff_rig *rig, const ff_cycles *cycles, int clip_co
             const ff_example *e = &cycles[c].items[i];
             if (ff_example_is_model(e) && (!best || e->loop.moved < best->loop.moved)) best = e;
         }
-    if (best && !ff_example_judge_loosely(rig, best, why, sizeof why))
+    if (best && !ff_example_judge_loosely(settings, rig, best, why, sizeof why))
         snprintf(text, size, " (the best, %.60s: %s)", best->name, why);
 }
 
-ff_status ff_examples_fail(const ff_rig *rig, const ff_cycles *cycles, int clip_count, ff_error *error)
+ff_status ff_examples_fail(const ff_example_settings *settings, const ff_rig *rig, const ff_cycles *cycles,
+                           int clip_count, ff_error *error)
 {
     tally t = count_kinds(cycles, clip_count);
     char kinds[160] = "", bad[200] = "";
@@ -71,7 +73,7 @@ ff_status ff_examples_fail(const ff_rig *rig, const ff_cycles *cycles, int clip_
     add(kinds, sizeof kinds, t.aside, "go aside");
     add(kinds, sizeof kinds, t.slow, "are too slow or go back");
     add(kinds, sizeof kinds, t.bad, "are no good");
-    explain_best(rig, cycles, clip_count, bad, sizeof bad);
+    explain_best(settings, rig, cycles, clip_count, bad, sizeof bad);
     return ff_fail(
         error, FF_ERR_NO_DATA,
         "no straight walk to build on: of %d gait cycles %s%s; add a clip of someone walking straight", t.all,

@@ -5,6 +5,7 @@
 #include "preprocess/examples.h"
 
 /* Say what the cycles of all clips are instead of straight walks; returns FF_ERR_NO_DATA. */
-ff_status ff_examples_fail(const ff_rig *rig, const ff_cycles *cycles, int clip_count, ff_error *error);
+ff_status ff_examples_fail(const ff_example_settings *settings, const ff_rig *rig, const ff_cycles *cycles,
+                           int clip_count, ff_error *error);
 
 #endif

@@ -2,10 +2,6 @@
 
 #include "preprocess/filter.h"
 
-/* Real floors of capture rooms: slopes up to 2 cm/m, feet up to 2 cm apart (labels, "things to know"). Samples repeat
- * to about half a centimetre. */
-static const double SLOPE_SPREAD = 0.02, FEET_SPREAD = 0.01, SAMPLE_SPREAD = 0.005, OUTLIER = 0.015;
-
 /* Unknowns: common level, half the difference of the feet (left +), slope along a, slope along b. */
 enum { UNKNOWNS = 4 };
 
@@ -32,20 +28,21 @@ static double off_plane(const ff_floor_sample *s, ff_vec3 centre, const double x
     return s->ball.y - (x[0] + side * x[1] + x[2] * (s->ball.z - centre.z) + x[3] * (s->ball.x - centre.x));
 }
 
-/* One round of reweighted least squares (Geman-McClure) from the plane x. */
-static void refine(const ff_floor_sample *samples, int count, ff_vec3 centre, double x[UNKNOWNS],
-                   double outlier)
+/* One round of reweighted least squares (Geman-McClure) from the plane x. Real floors of capture rooms slope by up to 2
+ * cm/m, feet are up to 2 cm apart (labels, "things to know"), samples repeat to about half a centimetre. */
+static void refine(const ff_floor_settings *set, const ff_floor_sample *samples, int count, ff_vec3 centre,
+                   double x[UNKNOWNS], double outlier)
 {
     double m[UNKNOWNS][UNKNOWNS + 1] = {{0}};
-    double prior[UNKNOWNS] = {1e-6, 1.0 / (FEET_SPREAD * FEET_SPREAD), 1.0 / (SLOPE_SPREAD * SLOPE_SPREAD),
-                              1.0 / (SLOPE_SPREAD * SLOPE_SPREAD)};
+    double prior[UNKNOWNS] = {1e-6, 1.0 / (set->feet * set->feet), 1.0 / (set->slope * set->slope),
+                              1.0 / (set->slope * set->slope)};
     for (int k = 0; k < UNKNOWNS; ++k)
         m[k][k] = prior[k];
     for (int i = 0; i < count; ++i) {
         const ff_floor_sample *s = &samples[i];
         double off = off_plane(s, centre, x) / outlier;
-        double w = ff_min(s->weight, 1.0) / (SAMPLE_SPREAD * SAMPLE_SPREAD) /
-                   ((1.0 + off * off) * (1.0 + off * off));
+        double w =
+            ff_min(s->weight, 1.0) / (set->spread * set->spread) / ((1.0 + off * off) * (1.0 + off * off));
         double row[UNKNOWNS] = {1.0, s->foot == FF_LEFT ? 1.0 : -1.0, s->ball.z - centre.z,
                                 s->ball.x - centre.x};
         for (int j = 0; j < UNKNOWNS; ++j) {
@@ -57,7 +54,7 @@ static void refine(const ff_floor_sample *samples, int count, ff_vec3 centre, do
     solve4(m, x);
 }
 
-ff_floor_fit ff_floor_solve(const ff_floor_sample *samples, int count)
+ff_floor_fit ff_floor_solve(const ff_floor_settings *settings, const ff_floor_sample *samples, int count)
 {
     ff_vec3 centre = ff_v3(0.0, 0.0, 0.0);
     for (int i = 0; i < count; ++i)
@@ -66,7 +63,7 @@ ff_floor_fit ff_floor_solve(const ff_floor_sample *samples, int count)
     /* From a blunt to a sharp idea of what lies off the floor, so that a few samples in the air cannot win. */
     double outlier = 0.2;
     for (int round = 0; round < 14; ++round, outlier *= 0.75)
-        refine(samples, count, centre, x, ff_max(outlier, OUTLIER));
+        refine(settings, samples, count, centre, x, ff_max(outlier, settings->outlier));
     ff_floor_fit fit = {.slope = ff_v2(x[2], x[3])};
     double origin = x[0] - ff_floor_rise(fit.slope, centre);
     fit.level[FF_LEFT] = origin + x[1];

@@ -19,7 +19,7 @@ typedef struct ff_floor_fit {
 
 /* Robust plane through the samples with one level per foot (the balls of a real skeleton's feet differ in height by
  * up to 2 cm). Directions the samples say nothing about stay level. count >= 1. */
-ff_floor_fit ff_floor_solve(const ff_floor_sample *samples, int count);
+ff_floor_fit ff_floor_solve(const ff_floor_settings *settings, const ff_floor_sample *samples, int count);
 
 /* Height of the plane's rise at a point, without the level. */
 static inline double ff_floor_rise(ff_vec2 slope, ff_vec3 p)

@@ -8,18 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The labels' low-pass; rules with times of 10 ms need a rate near that of optical capture. */
-static const double CUTOFF = 15.0, WORKING_RATE = 120.0;
+/* Rules with times of 10 ms need a rate near that of optical capture. */
+static const double WORKING_RATE = 120.0;
 /* Noisy capture is smoothed more: at 2 mm a speed from 15 Hz positions is off by 0.1 m/s, a third of the limits it
- * is held against. Optical capture has 0.1 to 0.5 mm and keeps the labels' filter. */
-static const double QUIET = 0.0005, NOISY = 0.002, NOISY_CUTOFF = 11.0;
+ * is held against. Optical capture has 0.1 to 0.5 mm and keeps the labels' filter, 15 Hz. */
+static const double QUIET = 0.0005, NOISY = 0.002, NOISY_SHARE = 11.0 / 15.0;
 
 /* Cutoff for a foot's points as captured. Slow capture has no high frequencies to tell noise from. */
-static double cutoff_for(const ff_foot_points *raw, double rate, double *scratch)
+static double cutoff_for(const ff_foot_points *raw, double cutoff, double rate, double *scratch)
 {
-    if (rate < 100.0) return CUTOFF;
+    if (rate < 100.0) return cutoff;
     double noise = ff_filter_noise(raw->ball, raw->count, scratch);
-    return ff_lerp(CUTOFF, NOISY_CUTOFF, ff_clamp((noise - QUIET) / (NOISY - QUIET), 0.0, 1.0));
+    return ff_lerp(cutoff, NOISY_SHARE * cutoff, ff_clamp((noise - QUIET) / (NOISY - QUIET), 0.0, 1.0));
 }
 
 static ff_status allocate(ff_foot_signals *out, const char *name, ff_error *error)
@@ -40,10 +40,11 @@ static ff_status allocate(ff_foot_signals *out, const char *name, ff_error *erro
     return FF_OK;
 }
 
-ff_status ff_foot_signals_read(const ff_clip *clip, int foot, ff_foot_signals *out, ff_foot_shape *shape,
-                               ff_error *error)
+ff_status ff_foot_signals_read(const ff_clip *clip, int foot, const ff_plant_settings *settings,
+                               ff_foot_signals *out, ff_foot_shape *shape, ff_error *error)
 {
     memset(out, 0, sizeof *out);
+    out->settings = settings;
     ff_foot_points raw;
     ff_status status = ff_foot_points_read(clip, foot, &raw, shape, error);
     if (status != FF_OK) return status;
@@ -59,7 +60,7 @@ ff_status ff_foot_signals_read(const ff_clip *clip, int foot, ff_foot_signals *o
     }
     if (status == FF_OK) {
         ff_vec3 *source[FF_FOOT_POINT_COUNT] = {raw.heel, raw.ball, raw.toe};
-        double cutoff = cutoff_for(&raw, rate, out->speed[0]);
+        double cutoff = cutoff_for(&raw, settings->cutoff, rate, out->speed[0]);
         for (int p = 0; p < FF_FOOT_POINT_COUNT; ++p) {
             ff_filter_despike(source[p], raw.count, rate);
             ff_filter_upsample(source[p], raw.count, out->factor, out->point[p]);

@@ -1,14 +1,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "preprocess/import_command.h"
 
-#include "mocap/catalogue.h"
 #include "mocap/normal.h"
 #include "mocap/write.h"
+#include "preprocess/each_clip.h"
 #include "preprocess/retarget.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
-#include "runtime/tool/command_line.h"
-#include "runtime/tool/progress.h"
 
 #include <ctype.h>
 #include <jansson.h>
@@ -119,8 +117,9 @@ static json_t *row_json(const ff_catalogue_entry *entry, const ff_clip *clip, co
     return row;
 }
 
-static ff_status import_one(import *run, const ff_catalogue_entry *entry, ff_error *error)
+static ff_status import_one(const ff_catalogue_entry *entry, void *context, ff_error *error)
 {
+    import *run = context;
     ff_clip clip;
     ff_status status = ff_clip_load(entry->path, &entry->options, &clip, error);
     if (status != FF_OK) return status;
@@ -136,38 +135,25 @@ static ff_status import_one(import *run, const ff_catalogue_entry *entry, ff_err
         json_array_append_new(run->list, row_json(entry, &clip, &s));
         if (!run->json) print_row(&clip, &s);
     }
-    if (status != FF_OK) ff_error_in_file(error, entry->path);
     ff_clip_free(&clip);
     return status;
 }
 
-static int import_all(import *run, const ff_operands *inputs, bool quiet)
+static int import_all(import *run, const ff_clip_run *clips, const ff_operands *inputs)
 {
     ff_error error;
-    ff_catalogue catalogue;
-    if (ff_catalogue_read(inputs->items, inputs->count, &catalogue, &error) != FF_OK)
+    if (run->folder && ff_folder_create(run->folder, &error) != FF_OK)
         return ff_command_fail(PROGRAM, &error);
-    int result = FF_EXIT_OK;
-    bool stopped = run->folder && ff_folder_create(run->folder, &error) != FF_OK;
-    if (stopped) result = ff_command_fail(PROGRAM, &error);
-    if (!run->json && !stopped)
+    if (!run->json)
         printf("%-24s %7s %6s %9s %6s %6s %7s %s\n", "name", "frames", "Hz", "unit m", "leg m", "m/s",
                "roles", "warnings");
-    ff_progress *progress = ff_progress_start("importing", (uint64_t)catalogue.count, quiet);
-    for (int i = 0; i < catalogue.count && !stopped; ++i) {
-        if (import_one(run, &catalogue.entries[i], &error) != FF_OK)
-            result = ff_command_fail(PROGRAM, &error);
-        ff_progress_step(progress, catalogue.entries[i].path);
-    }
-    ff_progress_end(progress);
-    ff_catalogue_free(&catalogue);
-    return result;
+    return ff_each_entry(clips, inputs, import_one, run);
 }
 
 int ff_import_command(int argc, char **argv)
 {
+    ff_clip_run clips = {.program = PROGRAM, .what = "importing"};
 import run = {.folder = NULL };
-    bool quiet = false;
     ff_option options[] = {
         {.name = "--out",
          .alias = "-o",
@@ -175,7 +161,7 @@ import run = {.folder = NULL };
          .help = "where to write NAME.bvh of each clip; without it they are only looked at",
          .text = &run.folder},
         {.name = "--json", .help = "the table as JSON, with the roles that are missing", .flag = &run.json},
-        {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &quiet},
+        FF_QUIET_OPTION(clips),
         {0}};
     ff_command command = {
         .program = PROGRAM,
@@ -196,7 +182,7 @@ import run = {.folder = NULL };
     int result = ff_command_parse(&command, argc, argv, &operands);
     if (result >= 0) return result;
     run.list = json_array();
-    result = import_all(&run, &operands, quiet);
+    result = import_all(&run, &clips, &operands);
     if (run.json) {
         json_dumpf(run.list, stdout, JSON_INDENT(1));
         printf("\n");

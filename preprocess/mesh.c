@@ -157,11 +157,9 @@ ff_status ff_mesh_clean(ff_mesh *mesh, ff_mesh_faults *faults, ff_error *error)
 
 /* --------------------------------------------------------------------------------------------------------- normals */
 
-/* Faces that meet at more than this turn do not share a normal. */
-#define CREASE (60.0 * FF_DEG)
-
 typedef struct creases {
     const ff_mesh *mesh; /* whose vertices are one per place */
+    double least;        /* cosine of the turn beyond which faces that meet do not share a normal */
     ff_vec3 *face;       /* [triangles] normal times twice the area */
     int *start, *around; /* faces around each vertex */
 } creases;
@@ -189,10 +187,9 @@ static void list_faces(creases *c)
 static ff_vec3 corner_normal(const creases *c, int triangle, uint32_t vertex, int end)
 {
     ff_vec3 own = ff_unit3(c->face[triangle]), sum = {0.0, 0.0, 0.0};
-    double least = ff_cos(CREASE);
     for (int i = c->start[vertex + 1]; i < end; ++i) {
         ff_vec3 other = c->face[c->around[i]];
-        if (ff_dot3(own, ff_unit3(other)) >= least) sum = ff_add3(sum, other);
+        if (ff_dot3(own, ff_unit3(other)) >= c->least) sum = ff_add3(sum, other);
     }
     return ff_length3(sum) > 0.0 ? ff_unit3(sum) : own;
 }
@@ -224,11 +221,11 @@ static bool split_at_creases(const creases *c, ff_mesh *out, int *next)
     return true;
 }
 
-static ff_status make_normals(const ff_mesh *mesh, ff_mesh *out, ff_error *error)
+static ff_status make_normals(const ff_mesh *mesh, double crease, ff_mesh *out, ff_error *error)
 {
     size_t corner_count = 3 * (size_t)mesh->triangle_count, count = (size_t)mesh->vertex_count;
     memset(out, 0, sizeof *out);
-    creases c = {.mesh = mesh};
+    creases c = {.mesh = mesh, .least = ff_cos(crease * FF_DEG)};
     c.face = ff_calloc((size_t)mesh->triangle_count, sizeof *c.face);
     c.start = ff_calloc(count + 2, sizeof *c.start);
     c.around = ff_calloc(corner_count, sizeof *c.around);
@@ -283,8 +280,8 @@ static bool weld_mesh(const ff_mesh *mesh, welded *out)
     return made;
 }
 
-ff_status ff_mesh_reduce(const ff_mesh *mesh, int triangles, ff_mesh *out, ff_mesh_faults *faults,
-                         ff_error *error)
+ff_status ff_mesh_reduce(const ff_mesh *mesh, int triangles, double crease, ff_mesh *out,
+                         ff_mesh_faults *faults, ff_error *error)
 {
     memset(out, 0, sizeof *out);
     welded w = {0};
@@ -301,7 +298,7 @@ ff_status ff_mesh_reduce(const ff_mesh *mesh, int triangles, ff_mesh *out, ff_me
     }
     for (int i = 0; status == FF_OK && i < smaller.vertex_count; ++i)
         smaller.vertices[i] = mesh->vertices[w.vertex[kept[i]]];
-    if (status == FF_OK) status = make_normals(&smaller, out, error);
+    if (status == FF_OK) status = make_normals(&smaller, crease, out, error);
     free(w.places);
     free(w.vertex);
     free(w.triangles);

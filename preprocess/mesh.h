@@ -34,13 +34,13 @@ ff_status ff_mesh_clean(ff_mesh *mesh, ff_mesh_faults *faults, ff_error *error);
 
 /* At most about `triangles` triangles: vertices at one place are welded, edges collapse by the quadric error (Garland and
  * Heckbert 1997), so every vertex left is one of the old ones with its own weights; normals are made anew, with creases
- * where the surface turns sharply. */
-ff_status ff_mesh_reduce(const ff_mesh *mesh, int triangles, ff_mesh *out, ff_mesh_faults *faults,
-                         ff_error *error);
+ * where faces meet at more than `crease` degrees. */
+ff_status ff_mesh_reduce(const ff_mesh *mesh, int triangles, double crease, ff_mesh *out,
+                         ff_mesh_faults *faults, ff_error *error);
 
 /* The three levels of detail of a cleaned mesh, finest first; faults->torn counts those of the finest. */
-ff_status ff_mesh_levels(const ff_mesh *mesh, ff_mesh levels[FF_MESH_LEVELS], ff_mesh_faults *faults,
-                         ff_error *error);
+ff_status ff_mesh_levels(const ff_skin_settings *settings, const ff_mesh *mesh,
+                         ff_mesh levels[FF_MESH_LEVELS], ff_mesh_faults *faults, ff_error *error);
 
 /* Part of the above (mesh_openmesh.cpp): triangles over welded places [count]; on success *kept (free()) lists the places that
  * are left and *faces (free()) the triangles over that list. */

@@ -6,6 +6,7 @@
 
 #include "mocap/clip.h"
 #include "preprocess/plants.h"
+#include "preprocess/stage_settings.h"
 
 /* Points of a posed body: the roles, then both heels. */
 enum { FF_BODY_HEEL_L = FF_ROLE_COUNT, FF_BODY_HEEL_R, FF_BODY_COUNT };

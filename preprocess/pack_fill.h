@@ -21,11 +21,11 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
 
 /* How they were closed, when to pass from one to another, the semi-procedural clip and the limits of sharp turns; after
  * the examples. */
-ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff_example_set *set,
-                           ff_tasks *tasks, ff_error *error);
+ff_status ff_pack_add_gait(ff_pack_content *content, const ff_correspondence_settings *settings,
+                           const ff_rig *rig, const ff_example_set *set, ff_tasks *tasks, ff_error *error);
 
 /* A character's surface at three levels of detail, and the thickness of its bones; after the rig. */
-ff_status ff_pack_add_skin(ff_pack_content *content, const ff_rig *rig, const char *path,
-                           const ff_load_options *options, ff_error *error);
+ff_status ff_pack_add_skin(ff_pack_content *content, const ff_skin_settings *settings, const ff_rig *rig,
+                           const char *path, const ff_load_options *options, ff_error *error);
 
 #endif

@@ -95,8 +95,8 @@ static ff_status add_sharp_turns(ff_pack_content *content, const ff_example_set 
     return status;
 }
 
-ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff_example_set *set,
-                           ff_tasks *tasks, ff_error *error)
+ff_status ff_pack_add_gait(ff_pack_content *content, const ff_correspondence_settings *settings,
+                           const ff_rig *rig, const ff_example_set *set, ff_tasks *tasks, ff_error *error)
 {
     ff_correspondences found = {0};
     ff_example *gait = ff_calloc((size_t)set->count, sizeof *gait);
@@ -104,7 +104,7 @@ ff_status ff_pack_add_gait(ff_pack_content *content, const ff_rig *rig, const ff
     if (status == FF_OK) status = add_sharp_turns(content, set, error);
     if (status == FF_OK) status = add_model(content, &set->gait, error);
     if (status == FF_OK) status = play_model(rig, set, gait, error);
-    if (status == FF_OK) status = ff_correspond_set(rig, set, gait, tasks, &found, error);
+    if (status == FF_OK) status = ff_correspond_set(settings, rig, set, gait, tasks, &found, error);
     for (int i = 0; i < found.count && status == FF_OK; ++i)
         status = add_correspondence(content, &found.items[i], error);
     ff_correspondences_free(&found);

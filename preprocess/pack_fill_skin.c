@@ -6,22 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Triangles of the finest level at most, and shares of it that the others have, but not fewer than a body needs. */
-#define FINEST 20000
-static const double shares[FF_MESH_LEVELS] = {1.0, 0.35, 0.1};
-#define FEWEST 400
-
-ff_status ff_mesh_levels(const ff_mesh *mesh, ff_mesh levels[FF_MESH_LEVELS], ff_mesh_faults *faults,
-                         ff_error *error)
+ff_status ff_mesh_levels(const ff_skin_settings *settings, const ff_mesh *mesh,
+                         ff_mesh levels[FF_MESH_LEVELS], ff_mesh_faults *faults, ff_error *error)
 {
+    const double shares[FF_MESH_LEVELS] = {1.0, settings->second, settings->third};
     memset(levels, 0, FF_MESH_LEVELS * sizeof *levels);
-    int finest = mesh->triangle_count < FINEST ? mesh->triangle_count : FINEST;
+    int finest = mesh->triangle_count < settings->triangles ? mesh->triangle_count : (int)settings->triangles;
+    int least = settings->least < finest ? (int)settings->least : finest;
     ff_status status = FF_OK;
     for (int i = 0; i < FF_MESH_LEVELS && status == FF_OK; ++i) {
         int wanted = (int)(finest * shares[i]);
         ff_mesh_faults again = {0};
-        if (wanted < FEWEST) wanted = FEWEST < finest ? FEWEST : finest;
-        status = ff_mesh_reduce(mesh, wanted, &levels[i], i == 0 ? faults : &again, error);
+        if (wanted < least) wanted = least;
+        status = ff_mesh_reduce(mesh, wanted, settings->crease, &levels[i], i == 0 ? faults : &again, error);
     }
     for (int i = 0; status != FF_OK && i < FF_MESH_LEVELS; ++i)
         ff_mesh_free(&levels[i]);
@@ -83,8 +80,8 @@ static ff_status add_level(ff_pack_content *content, const ff_mesh *mesh, ff_err
     return FF_OK;
 }
 
-ff_status ff_pack_add_skin(ff_pack_content *content, const ff_rig *rig, const char *path,
-                           const ff_load_options *options, ff_error *error)
+ff_status ff_pack_add_skin(ff_pack_content *content, const ff_skin_settings *settings, const ff_rig *rig,
+                           const char *path, const ff_load_options *options, ff_error *error)
 {
     ff_skin skin;
     ff_mesh mesh = {0}, levels[FF_MESH_LEVELS] = {{0}};
@@ -94,7 +91,7 @@ ff_status ff_pack_add_skin(ff_pack_content *content, const ff_rig *rig, const ch
     if (status != FF_OK) return status;
     status = ff_mesh_fit(&skin, rig, &mesh, radius, error);
     if (status == FF_OK) status = ff_mesh_clean(&mesh, &faults, error);
-    if (status == FF_OK) status = ff_mesh_levels(&mesh, levels, &faults, error);
+    if (status == FF_OK) status = ff_mesh_levels(settings, &mesh, levels, &faults, error);
     for (int i = 0; i < FF_MESH_LEVELS && status == FF_OK; ++i)
         status = add_level(content, &levels[i], error);
     ff_pack_joint *joints = content->joints.data;

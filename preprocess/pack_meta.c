@@ -92,7 +92,7 @@ static json_t *clip_entry(const ff_build_clip *clip, const ff_build_settings *se
                   "frames", clip->frames, "rejected", rejections_of(clip));
     if (entry && clip->plants.found_count > 0) json_object_set_new(entry, "found", found_plants(clip));
     if (entry && clip->repaired.count > 0) json_object_set_new(entry, "broken", breaks_of(clip));
-    if (entry && settings->pack.motion.clean && !clip->derived)
+    if (entry && settings->pack.cut.motion.clean && !clip->derived)
         json_object_set_new(entry, "clean", clean_entry(&clip->cleaned));
     json_object_set_new(entry, "poses",
                         json_pack("{s:f, s:o, s:o}", "bytes_per_second", clip->pose.bytes_per_second,

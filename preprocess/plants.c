@@ -12,21 +12,15 @@
 
 /* The sole is this far below the ball joint, as a share of the leg's length (CMU, level clips: 3 cm of 0.84 m). */
 static const double BALL_OVER_SOLE = 0.036;
-/* m: how far over the floor a planted foot may be, and how much more per metre of mean distance from the plane, which
- * is large where the ground is uneven. */
-static const double ABOVE_FLOOR = 0.05, ABOVE_PER_SCATTER = 3.0;
-/* m/s: ground speed of the hips at which a walk has surely become a run, and ends of the blend between the rules. */
-static const double WALKING = 1.85, RUNNING = 2.15;
-
-/* m: a foot this far off the plane stands on a level of its own: captured feet on a level floor are within 3 cm. */
-static const double OWN_LEVEL = 0.045;
+/* How much further over the floor a planted foot may be per metre of mean distance from the plane, which is large where
+ * the ground is uneven. */
+static const double ABOVE_PER_SCATTER = 3.0;
 static const double GLIMPSE = 0.018; /* s */
-/* m: a foot that jumps this far was not standing while it did. */
-static const double TORN = 0.08;
 
 /* What is known while one clip is searched. */
 typedef struct search {
     const ff_clip *clip;
+    const ff_find_settings *settings;
     ff_foot_signals feet[2];
     ff_contact *contacts[2];
     int count[2];
@@ -73,12 +67,15 @@ static ff_status read_hips(search *s, ff_error *error)
     return status;
 }
 
-static ff_status search_begin(search *s, const ff_clip *clip, ff_plants *out, ff_error *error)
+static ff_status search_begin(search *s, const ff_clip *clip, const ff_find_settings *settings,
+                              ff_plants *out, ff_error *error)
 {
     memset(s, 0, sizeof *s);
     s->clip = clip;
+    s->settings = settings;
     for (int foot = 0; foot < 2; ++foot) {
-        ff_status status = ff_foot_signals_read(clip, foot, &s->feet[foot], &out->shape[foot], error);
+        ff_status status =
+            ff_foot_signals_read(clip, foot, &settings->plants, &s->feet[foot], &out->shape[foot], error);
         if (status != FF_OK) return status;
     }
     size_t n = (size_t)s->feet[0].count;
@@ -130,22 +127,25 @@ static ff_status fit_floor(search *s, ff_error *error)
             if (s->feet[0].point[FF_FOOT_BALL][i].y < lowest.y) lowest = s->feet[0].point[FF_FOOT_BALL][i];
         samples[m++] = (ff_floor_sample){.foot = 0, .ball = lowest, .weight = 1.0};
     }
-    s->floor = ff_floor_solve(samples, m);
+    s->floor = ff_floor_solve(&s->settings->floor, samples, m);
     free(samples);
     for (int foot = 0; foot < 2; ++foot)
         ff_floor_heights(&s->floor, foot, &s->feet[foot], s->scratch);
     return FF_OK;
 }
 
+/* 0 where the hips go at the speed of a walk, 1 at that of a run, and between in between. */
 static double running_share(const search *s, const ff_contact *c)
 {
+    double walking = s->settings->plants.walking,
+           running = ff_max(s->settings->plants.running, walking + 0.01);
     const ff_foot_signals *f = &s->feet[0];
     int reach = (int)(0.2 * f->rate), n = f->count;
     int from = c->first - reach > 0 ? c->first - reach : 0,
         to = c->last + reach < n ? c->last + reach : n - 1;
     ff_vec3 moved = ff_sub3(s->hips[to], s->hips[from]);
     double speed = to > from ? ff_length2(ff_plane(moved)) * f->rate / (to - from) : 0.0;
-    return ff_clamp((speed - WALKING) / (RUNNING - WALKING), 0.0, 1.0);
+    return ff_clamp((speed - walking) / (running - walking), 0.0, 1.0);
 }
 
 /* Too little of a swing at the clip's start to tell that it was one, and of a contact at its end. */
@@ -171,13 +171,13 @@ static void refine_foot(search *s, int foot)
 }
 
 /* Is the foot, or the body it belongs to, somewhere else after this break? */
-static bool tears(const ff_break *b, int foot)
+static bool tears(const search *s, const ff_break *b, int foot)
 {
     if (b->repaired || !b->body) return false;
     if (b->kind == FF_BREAK_FROZEN) return true;
     ff_role first = foot == FF_LEFT ? FF_ROLE_HIP_R : FF_ROLE_HIP_L; /* the other leg */
     bool other = b->role >= first && b->role <= first + (FF_ROLE_BALL_L - FF_ROLE_HIP_L);
-    return b->kind == FF_BREAK_JUMP && b->size > TORN && !other;
+    return b->kind == FF_BREAK_JUMP && b->size > s->settings->breaks.torn && !other;
 }
 
 /* Cut the torn stretch out of the foot's contacts: what is left on either side is a contact of its own. */
@@ -213,7 +213,7 @@ static void cut_out_breaks(search *s, const ff_breaks *breaks)
     for (int foot = 0; foot < 2; ++foot) {
         int before = s->count[foot];
         for (int i = 0; i < breaks->count; ++i)
-            if (tears(&breaks->items[i], foot)) cut_out(s, foot, &breaks->items[i]);
+            if (tears(s, &breaks->items[i], foot)) cut_out(s, foot, &breaks->items[i]);
         bool changed = s->count[foot] != before || breaks->count > 0;
         for (int c = 0; changed && c < s->count[foot]; ++c)
             ff_contact_find_flat(&s->feet[foot], running_share(s, &s->contacts[foot][c]),
@@ -381,22 +381,23 @@ static void describe_floor(const search *s, ff_plants *out)
         ff_plant *p = &out->items[i];
         double plane = s->floor.level[p->foot] + ff_dot2(s->floor.slope, p->ball), over = p->ball_y - plane;
         out->floor.residual = ff_max(out->floor.residual, fabs(over));
-        p->level = p->flat_start >= 0 && fabs(over) > OWN_LEVEL ? over : 0.0;
+        p->level = p->flat_start >= 0 && fabs(over) > s->settings->plants.own_level ? over : 0.0;
     }
 }
 
-ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error)
+ff_status ff_plants_find(const ff_clip *clip, const ff_find_settings *settings, ff_plants *out,
+                         ff_error *error)
 {
-    return ff_plants_find_edited(clip, NULL, out, error);
+    return ff_plants_find_edited(clip, settings, NULL, out, error);
 }
 
-ff_status ff_plants_find_edited(const ff_clip *clip, const ff_plant_edits *edits, ff_plants *out,
-                                ff_error *error)
+ff_status ff_plants_find_edited(const ff_clip *clip, const ff_find_settings *settings,
+                                const ff_plant_edits *edits, ff_plants *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
     search s;
-    ff_status status = search_begin(&s, clip, out, error);
-    if (status == FF_OK) status = ff_breaks_find(clip, &out->breaks, error);
+    ff_status status = search_begin(&s, clip, settings, out, error);
+    if (status == FF_OK) status = ff_breaks_find(clip, &settings->breaks, &out->breaks, error);
     if (status == FF_OK) {
         int capacity = s.feet[0].count / 2 + 1;
         for (int foot = 0; foot < 2; ++foot)
@@ -404,7 +405,7 @@ ff_status ff_plants_find_edited(const ff_clip *clip, const ff_plant_edits *edits
         status = fit_floor(&s, error);
     }
     if (status == FF_OK) {
-        double tolerance = ABOVE_FLOOR + ABOVE_PER_SCATTER * s.floor.scatter;
+        double tolerance = settings->plants.above_floor + ABOVE_PER_SCATTER * s.floor.scatter;
         for (int foot = 0; foot < 2; ++foot) {
             s.count[foot] = ff_contacts_keep_low(&s.feet[foot], tolerance, s.contacts[foot], s.count[foot]);
             refine_foot(&s, foot);

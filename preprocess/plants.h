@@ -61,11 +61,12 @@ typedef struct ff_plants {
 
 /* Find the plants of a clip by height and velocity over a fitted floor plane (footstep planning, section 4;
  * algorithms A.5). Needs hips, knees and ankles of both sides. On failure *out is zeroed. */
-ff_status ff_plants_find(const ff_clip *clip, ff_plants *out, ff_error *error);
+ff_status ff_plants_find(const ff_clip *clip, const ff_find_settings *settings, ff_plants *out,
+                         ff_error *error);
 /* The same, then what a person wrote (plant_edit.h; NULL: nothing). Edits that do not fit fail with their line. */
 typedef struct ff_plant_edits ff_plant_edits;
-ff_status ff_plants_find_edited(const ff_clip *clip, const ff_plant_edits *edits, ff_plants *out,
-                                ff_error *error);
+ff_status ff_plants_find_edited(const ff_clip *clip, const ff_find_settings *settings,
+                                const ff_plant_edits *edits, ff_plants *out, ff_error *error);
 void ff_plants_free(ff_plants *plants);
 
 #endif

@@ -80,13 +80,15 @@ static ff_status print_clip(const ff_seen_clip *seen, void *context, ff_error *e
 
 int ff_plants_command(int argc, char **argv)
 {
-    bool csv = false, override = false, quiet = false;
+    bool csv = false, override = false;
+    ff_clip_run run = {.program = PROGRAM, .what = "plants"};
     ff_option options[] = {
         {.name = "--csv", .help = "one line per plant, with a header", .flag = &csv},
         {.name = "--write-override",
          .help = "write NAME.plants.json beside each clip, to be edited: what it says holds",
          .flag = &override},
-        {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &quiet},
+        FF_CONFIG_OPTION(run),
+        FF_QUIET_OPTION(run),
         {0}};
     ff_command command = {
         .program = PROGRAM,
@@ -107,5 +109,5 @@ int ff_plants_command(int argc, char **argv)
     if (result >= 0) return result;
     plants_layout layout = override ? OVERRIDE : (csv ? CSV : TABLE);
     if (layout == CSV) printf("clip,foot,start_frame,end_frame,flat_start,flat_end,confidence\n");
-    return ff_each_clip(PROGRAM, "plants", operands.items, operands.count, quiet, print_clip, &layout);
+    return ff_each_clip(&run, &operands, print_clip, &layout);
 }

@@ -28,6 +28,7 @@ typedef struct candidate {
 } candidate;
 
 typedef struct selection {
+    const ff_successor_settings *settings;
     candidate *items;
     int count, chosen, wanted;
     unsigned char *follows; /* [count][count]: 1 + whether k may follow i, itself or mirrored */
@@ -35,10 +36,10 @@ typedef struct selection {
 
 /* -------------------------------------------------------------------------------------------------------- partners */
 
-static bool near(const ff_action *a, const ff_action *b)
+static bool near(const ff_successor_settings *settings, const ff_action *a, const ff_action *b)
 {
     const ff_action_joins p = {a->start, a->end}, q = {b->start, b->end};
-    return ff_may_follow(&a->record, &b->record) &&
+    return ff_may_follow(settings, &a->record, &b->record) &&
            ff_join_distance(&a->record, &p, &b->record, &q, PARTNER) <= PARTNER;
 }
 
@@ -48,7 +49,8 @@ static void find_partners(void *context, uint32_t index)
     candidate *c = &s->items[index];
     for (int k = 0; k < s->count; ++k) {
         /* The mirror image of a pair is a pair. */
-        bool follows = near(c->action, s->items[k].action) || near(c->action, &s->items[k].mirrored);
+        bool follows = near(s->settings, c->action, s->items[k].action) ||
+                       near(s->settings, c->action, &s->items[k].mirrored);
         s->follows[(size_t)index * (size_t)s->count + (size_t)k] = follows;
         c->partners += follows;
     }
@@ -227,9 +229,10 @@ static ff_status begin(selection *s, ff_build_clip *clips, int count, int wanted
     return FF_OK;
 }
 
-ff_status ff_actions_select(ff_build_clip *clips, int count, int wanted, ff_tasks *tasks, ff_error *error)
+ff_status ff_actions_select(const ff_successor_settings *settings, ff_build_clip *clips, int count,
+                            int wanted, ff_tasks *tasks, ff_error *error)
 {
-    selection s = {0};
+    selection s = {.settings = settings};
     ff_status status = begin(&s, clips, count, wanted, tasks, error);
     if (status == FF_OK && s.wanted < s.count) {
         choose_needed(&s);

@@ -9,6 +9,7 @@
  * stops, turns and steps from standing first; then those that cover (mode, landing, turn, duration) best, from the most
  * ordinary one outwards; then those that give the most partners to go on with. Steps that are not captured cleanly or have
  * hardly any partner do not count. */
-ff_status ff_actions_select(ff_build_clip *clips, int count, int wanted, ff_tasks *tasks, ff_error *error);
+ff_status ff_actions_select(const ff_successor_settings *settings, ff_build_clip *clips, int count,
+                            int wanted, ff_tasks *tasks, ff_error *error);
 
 #endif

@@ -1,10 +1,11 @@
 /* settings.h - everything about a pack that a person may choose, in one place: one line of the table per setting.
  *
  * The table is what the configuration file may say, what `footfall-pack config` prints, what stands in the pack's
- * provenance and what the cache asks about. To add a setting: a member here, a line in settings.c. */
+ * provenance and what the cache asks about. To add a setting: a member in stage_settings.h, a line in settings.c. */
 #ifndef FF_SETTINGS_H
 #define FF_SETTINGS_H
 
+#include "preprocess/stage_settings.h"
 #include "runtime/tool/json.h"
 
 enum { FF_SETTING_PATH = 1024 }; /* bytes of a path, with its end */
@@ -13,16 +14,13 @@ typedef struct ff_settings {
     struct {
         char skeleton[FF_SETTING_PATH];
     } rig;
-    struct {
-        bool clean;
-    } motion;
-    struct {
-        double rate, bytes;
-    } poses;
-    struct {
-        int64_t count;
-        bool derive;
-    } actions;
+    ff_find_settings find;
+    ff_cut_settings cut;
+    ff_correspondence_settings correspondences;
+    ff_successor_settings successors;
+    ff_actions_settings actions;
+    ff_poses_settings poses;
+    ff_skin_settings skin;
 } ff_settings;
 
 /* The earliest stage whose result a setting changes: what a cache holds of later stages is then made anew. */

@@ -9,7 +9,8 @@ typedef struct ff_stand {
 } ff_stand;
 
 /* Stretches of at least 0.3 s, in order. Writes at most capacity, returns the number. */
-int ff_stands_find(const ff_motion *motion, const ff_plants *plants, ff_stand *out, int capacity);
+int ff_stands_find(const ff_standing_settings *settings, const ff_motion *motion, const ff_plants *plants,
+                   ff_stand *out, int capacity);
 
 /* The plant of foot that covers frame, or -1. */
 int ff_plant_at(const ff_plants *plants, int foot, int frame);

@@ -11,10 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double STOPS_WITHIN = 0.4; /* s from the last full plant to standing */
-static const double IDLE = 0.5;         /* s, algorithms A.6 */
-
 typedef struct cutting {
+    const ff_cut_settings *settings;
     const ff_rig *rig;
     const ff_motion *motion;
     const ff_plants *plants;
@@ -63,8 +61,9 @@ static ff_status take(cutting *c, const ff_step_span *span)
     }
     ff_action *action = ff_array_grow(&c->actions, 1, sizeof *action);
     if (!action) return no_memory(c);
-    ff_action_annotate(c->rig, c->motion, c->plants, span, action);
-    if (ff_step_acceptable(c->rig, c->motion, c->plants, span, &action->record, reason, sizeof reason))
+    ff_action_annotate(c->settings, c->rig, c->motion, c->plants, span, action);
+    if (ff_step_acceptable(&c->settings->steps, c->rig, c->motion, c->plants, span, &action->record, reason,
+                           sizeof reason))
         return FF_OK;
     --c->actions.count;
     return reject(c, span->first, span->last, reason);
@@ -85,7 +84,7 @@ static const ff_stand *next_stand(const cutting *c, int frame, int next_landing)
         const ff_stand *s = &c->stands[i];
         if (s->first <= frame && s->last > frame) return s;
         if (s->first > frame && s->first < next_landing &&
-            (s->first - frame) * c->motion->frame_time < STOPS_WITHIN)
+            (s->first - frame) * c->motion->frame_time < c->settings->steps.stops_within)
             return s;
     }
     return NULL;
@@ -144,7 +143,8 @@ static ff_status cut_step(cutting *c, int k)
     mind_standing(c, &span, stand, after);
     /* A clip with a duck in it is called crouched for the duck. */
     int tag = c->mode_tag == FF_MODE_CROUCH && c->whole_count > 0 ? -1 : c->mode_tag;
-    span.mode = ff_step_mode(c->rig, c->motion, c->plants, &span, tag, stand != NULL, after != NULL);
+    span.mode =
+        ff_step_mode(c->settings, c->rig, c->motion, c->plants, &span, tag, stand != NULL, after != NULL);
     if (span.mode == FF_MODE_JUMP) span.flags |= FF_ACTION_WHOLE;
     return take(c, &span);
 }
@@ -192,11 +192,11 @@ static ff_status cut_wholes(cutting *c)
 static ff_status cut_idle(cutting *c)
 {
     const ff_stand *best = NULL, *low = NULL;
-    int frames = (int)floor(IDLE / c->motion->frame_time + 0.5);
+    int frames = (int)floor(c->settings->steps.idle / c->motion->frame_time + 0.5);
     for (int i = 0; i < c->stand_count; ++i) {
         const ff_stand *s = &c->stands[i];
         if (s->last - s->first < frames) continue;
-        bool up = !ff_is_crouched(c->rig, c->motion, c->plants, s->first, s->last);
+        bool up = !ff_is_crouched(&c->settings->steps, c->rig, c->motion, c->plants, s->first, s->last);
         if (up && (!best || s->last - s->first > best->last - best->first)) best = s;
         if (!up && !low) low = s;
     }
@@ -222,12 +222,12 @@ static ff_status cut_all(cutting *c)
     qsort(c->landings, (size_t)count, sizeof *c->landings, by_frame);
     int capacity = c->motion->frame_count / 2 + 1;
     c->landing_count = count;
-    c->stand_count = ff_stands_find(c->motion, c->plants, c->stands, capacity);
+    c->stand_count = ff_stands_find(&c->settings->standing, c->motion, c->plants, c->stands, capacity);
     if (count == 0) return reject(c, 0, c->motion->frame_count - 1, "no foot plant was found");
     ff_status status = cut_idle(c);
     if (c->mode_tag == FF_MODE_IDLE || status != FF_OK) return status;
-    c->whole_count = ff_wholes_find(c->rig, c->motion, c->plants, c->stands, c->stand_count, c->landings,
-                                    count, c->wholes, capacity);
+    c->whole_count = ff_wholes_find(c->settings, c->rig, c->motion, c->plants, c->stands, c->stand_count,
+                                    c->landings, count, c->wholes, capacity);
     status = cut_wholes(c);
     if (c->mode_tag == FF_MODE_JUMP || c->mode_tag == FF_MODE_CLIMB || status != FF_OK) return status;
     status = reject(c, 0, c->landings[0].frame, "before the first full plant");
@@ -255,11 +255,16 @@ static int by_time(const void *x, const void *y)
                : (p->last_frame > q->last_frame) - (p->last_frame < q->last_frame);
 }
 
-ff_status ff_actions_cut(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int mode_tag,
-                         ff_actions *out, ff_error *error)
+ff_status ff_actions_cut(const ff_cut_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                         const ff_plants *plants, int mode_tag, ff_actions *out, ff_error *error)
 {
     memset(out, 0, sizeof *out);
-    cutting c = {.rig = rig, .motion = motion, .plants = plants, .mode_tag = mode_tag, .error = error};
+    cutting c = {.settings = settings,
+                 .rig = rig,
+                 .motion = motion,
+                 .plants = plants,
+                 .mode_tag = mode_tag,
+                 .error = error};
     c.landings = ff_calloc((size_t)plants->count + 1, sizeof *c.landings);
     c.stands = ff_calloc((size_t)motion->frame_count / 2 + 1, sizeof *c.stands);
     c.wholes = ff_calloc((size_t)motion->frame_count / 2 + 1, sizeof *c.wholes);

@@ -40,8 +40,8 @@ typedef struct ff_actions {
 } ff_actions;
 
 /* mode_tag: a whole-clip mode given in the catalogue (FF_MODE_*), or -1 to find it from the motion. */
-ff_status ff_actions_cut(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants, int mode_tag,
-                         ff_actions *out, ff_error *error);
+ff_status ff_actions_cut(const ff_cut_settings *settings, const ff_rig *rig, const ff_motion *motion,
+                         const ff_plants *plants, int mode_tag, ff_actions *out, ff_error *error);
 void ff_actions_free(ff_actions *actions);
 
 /* Tell short from long walking steps by the median step length of all given clips (algorithms A.7). */

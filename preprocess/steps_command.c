@@ -27,11 +27,12 @@ static ff_status print_row(const ff_seen_clip *seen, void *context, ff_error *er
 
 int ff_steps_command(int argc, char **argv)
 {
-    bool csv = false, quiet = false;
-    ff_option options[] = {
-        {.name = "--csv", .help = "one line per clip, with a header", .flag = &csv},
-        {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &quiet},
-        {0}};
+    bool csv = false;
+    ff_clip_run run = {.program = PROGRAM, .what = "steps"};
+    ff_option options[] = {{.name = "--csv", .help = "one line per clip, with a header", .flag = &csv},
+                           FF_CONFIG_OPTION(run),
+                           FF_QUIET_OPTION(run),
+                           {0}};
     ff_command command = {
         .program = PROGRAM,
         .name = "steps",
@@ -59,5 +60,5 @@ int ff_steps_command(int argc, char **argv)
     else
         printf("%-32s %6s %6s %8s %8s %8s %8s %8s\n", "clip", "s", "steps", "per min", "m/s", "step m",
                "width cm", "turn deg");
-    return ff_each_clip(PROGRAM, "steps", operands.items, operands.count, quiet, print_row, &csv);
+    return ff_each_clip(&run, &operands, print_row, &csv);
 }

@@ -5,11 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double FEW = 28.0, MANY = 100.0, LIMIT_FEW = 0.15, LIMIT_MANY = 0.10; /* actions; m */
-static const double COST = 20.0;                         /* J/kg per m, footstep study, section 4.5 */
-static const double WALK_CHANGE = 0.9, RUN_CHANGE = 1.8; /* m/s, algorithms A.13 */
-static const double TURN_CHANGE = 70.0 * FF_DEG, TURN_BEFORE = 0.6; /* rad, m/s */
-static const double ANYTHING = 1e6;                                 /* m */
+/* The cost of a joint is the footstep study's (section 4.5), the limits of changes are those of algorithms A.13. */
+static const double FEW = 28.0, MANY = 100.0; /* actions */
+static const double TURN_BEFORE = 0.6;        /* m/s */
+static const double ANYTHING = 1e6;           /* m */
 
 /* Feet count double, the rest of the legs one and a half times (algorithms A.12). */
 static double weight(int joint)
@@ -20,9 +19,9 @@ static double weight(int joint)
     return joint >= FF_ROLE_HIP_L ? 1.5 : 1.0;
 }
 
-double ff_join_limit(int actions)
+double ff_join_limit(const ff_successor_settings *settings, int actions)
 {
-    return ff_lerp(LIMIT_FEW, LIMIT_MANY, ff_clamp((actions - FEW) / (MANY - FEW), 0.0, 1.0));
+    return ff_lerp(settings->few, settings->many, ff_clamp((actions - FEW) / (MANY - FEW), 0.0, 1.0));
 }
 
 static bool stands_between(const ff_pack_action *action, const ff_pack_action *next)
@@ -38,7 +37,8 @@ static bool feet_agree(const ff_pack_action *action, const ff_pack_action *next)
     return next->support == action->swing || (stays && stands_between(action, next));
 }
 
-bool ff_may_follow(const ff_pack_action *action, const ff_pack_action *next)
+bool ff_may_follow(const ff_successor_settings *settings, const ff_pack_action *action,
+                   const ff_pack_action *next)
 {
     if (!feet_agree(action, next)) return false;
     bool run = action->mode == FF_MODE_RUN || next->mode == FF_MODE_RUN;
@@ -47,7 +47,8 @@ bool ff_may_follow(const ff_pack_action *action, const ff_pack_action *next)
     if (next->mode == FF_MODE_TURN && (double)action->speed >= TURN_BEFORE) return false;
     double faster = fabs((double)next->speed - (double)action->speed);
     double turned = fabs((double)next->theta - (double)action->theta);
-    return faster <= (run ? RUN_CHANGE : WALK_CHANGE) && turned <= TURN_CHANGE;
+    return faster <= (run ? settings->run_change : settings->walk_change) &&
+           turned <= settings->turn_change * FF_DEG;
 }
 
 /* Where the foot that next stands on is, seen from the end of action: nowhere else but where that one's foot landed,
@@ -80,6 +81,7 @@ double ff_join_distance(const ff_pack_action *action, const ff_action_joins *joi
 /* ---------------------------------------------------------------------------------------------------- the table */
 
 typedef struct table {
+    const ff_successor_settings *settings;
     const ff_pack_action *actions;
     const ff_action_joins *joins;
     uint32_t count;
@@ -99,7 +101,7 @@ static bool add(table *t, uint32_t action, uint32_t next, double distance)
 {
     ff_pack_successor *s = ff_array_grow(&t->next[action], 1, sizeof *s);
     if (!s) return false;
-    *s = (ff_pack_successor){next, (float)distance, (float)(COST * distance)};
+    *s = (ff_pack_successor){next, (float)distance, (float)(t->settings->cost * distance)};
     return true;
 }
 
@@ -117,7 +119,7 @@ static uint32_t nearest(const table *t, uint32_t index, bool strict, bool standi
     for (uint32_t k = 0; k < t->count; ++k) {
         const ff_pack_action *action = &t->actions[index], *next = &t->actions[k];
         if (standing && !(next->flags & FF_ACTION_TO_STANDING)) continue;
-        if (strict ? !ff_may_follow(action, next) : !feet_agree(action, next)) continue;
+        if (strict ? !ff_may_follow(t->settings, action, next) : !feet_agree(action, next)) continue;
         double d = ff_join_distance(action, &t->joins[index], next, &t->joins[k], *distance);
         if (d < *distance) {
             *distance = d;
@@ -132,7 +134,7 @@ static void find_next(void *context, uint32_t index)
     table *t = context;
     const ff_pack_action *action = &t->actions[index];
     for (uint32_t k = 0; k < t->count && !t->failed[index]; ++k) {
-        if (!ff_may_follow(action, &t->actions[k])) continue;
+        if (!ff_may_follow(t->settings, action, &t->actions[k])) continue;
         double d = ff_join_distance(action, &t->joins[index], &t->actions[k], &t->joins[k], t->limit);
         if (d <= t->limit && !add(t, index, k, d)) t->failed[index] = true;
     }
@@ -185,16 +187,18 @@ static ff_status collect(const table *t, ff_pack_content *content, ff_error *err
     return FF_OK;
 }
 
-ff_status ff_pack_add_successors(ff_pack_content *content, ff_tasks *tasks, ff_error *error)
+ff_status ff_pack_add_successors(ff_pack_content *content, const ff_successor_settings *settings,
+                                 ff_tasks *tasks, ff_error *error)
 {
-    table t = {.actions = content->actions.data,
+    table t = {.settings = settings,
+               .actions = content->actions.data,
                .joins = content->joins.data,
                .count = (uint32_t)content->actions.count};
     if (t.count == 0) return FF_OK;
     int own = 0;
     for (uint32_t i = 0; i < t.count; ++i)
         own += !(t.actions[i].flags & FF_ACTION_MIRRORED);
-    t.limit = ff_join_limit(own);
+    t.limit = ff_join_limit(settings, own);
     t.next = ff_calloc(t.count, sizeof *t.next);
     t.failed = ff_calloc(t.count, sizeof *t.failed);
     ff_status status = FF_OK;

@@ -18,11 +18,12 @@ typedef struct ff_whole {
 
 /* Is this stretch without a foot on the ground a jump and no flight of a run? Long ones are, and those that both feet
  * begin or end as one. */
-bool ff_flight_is_jump(const ff_motion *motion, const ff_plants *plants, int from, int to);
+bool ff_flight_is_jump(const ff_whole_settings *set, const ff_motion *motion, const ff_plants *plants,
+                       int from, int to);
 
 /* In order of first; from the stands and the landings of the motion. Writes at most capacity, returns the number. */
-int ff_wholes_find(const ff_rig *rig, const ff_motion *motion, const ff_plants *plants,
-                   const ff_stand *stands, int stand_count, const ff_landing *landings, int landing_count,
-                   ff_whole *out, int capacity);
+int ff_wholes_find(const ff_cut_settings *set, const ff_rig *rig, const ff_motion *motion,
+                   const ff_plants *plants, const ff_stand *stands, int stand_count,
+                   const ff_landing *landings, int landing_count, ff_whole *out, int capacity);
 
 #endif

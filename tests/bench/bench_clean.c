@@ -5,6 +5,7 @@
 #include "mocap/generator/generator.h"
 #include "mocap/load.h"
 #include "preprocess/clean.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,7 +89,7 @@ static void clean_one(const ff_rig *rig, const ff_clip *clip, tally *t)
     ff_clean_report r;
     ff_error error;
     char text[1024];
-    ff_status status = ff_plants_find(clip, &plants, &error);
+    ff_status status = ff_plants_find(clip, &standard()->find, &plants, &error);
     if (status != FF_OK) {
         ++t->failed;
         return;
@@ -96,7 +97,7 @@ static void clean_one(const ff_rig *rig, const ff_clip *clip, tally *t)
     status = ff_motion_from_clip(rig, clip, &plants, &motion, &error);
     if (status == FF_OK) {
         double start = seconds();
-        status = ff_motion_clean(rig, &motion, &plants, &r, &error);
+        status = ff_motion_clean(rig, &standard()->cut.clean, &motion, &plants, &r, &error);
         t->spent += seconds() - start;
         t->motion += ff_clip_seconds(clip);
         ff_motion_free(&motion);

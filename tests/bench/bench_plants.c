@@ -3,6 +3,7 @@
 #include "mocap/generator/generator.h"
 #include "tests/preprocess/clip_change.h"
 #include "tests/preprocess/plant_score.h"
+#include "tests/preprocess/standard.h"
 
 static void raise_floor(ff_clip *clip)
 {
@@ -55,7 +56,7 @@ static void print_generated(double noise_mm, double skate_cm)
         ff_error error;
         ff_plants plants;
         FF_ASSERT_OK(ff_generator_make(i, &options, &made, &error), error);
-        FF_ASSERT_OK(ff_plants_find(&made.clip, &plants, &error), error);
+        FF_ASSERT_OK(ff_plants_find(&made.clip, &standard()->find, &plants, &error), error);
         int count = 0;
         for (; count < made.plant_count && count < MOST_LABELS; ++count) {
             const ff_true_plant *t = &made.plants[count];

@@ -8,6 +8,7 @@
 #include "runtime/core/base/random.h"
 #include "runtime/core/joints.h"
 #include "runtime/core/pose_stream.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -97,9 +98,9 @@ static source *load(int argc, const char *const *argv, int *count)
     char shared[1024];
     const char *folder = getenv("FF_SHARED");
     snprintf(shared, sizeof shared, "%s/data/cmu", folder ? folder : "");
-    const char *standard[] = {shared};
+    const char *usual[] = {shared};
     bool built_in = argc == 0 && !folder;
-    if (!built_in && ff_catalogue_read(argc ? argv : standard, argc ? argc : 1, &catalogue, &error) != FF_OK)
+    if (!built_in && ff_catalogue_read(argc ? argv : usual, argc ? argc : 1, &catalogue, &error) != FF_OK)
         give_up(&error);
     *count = built_in ? ff_generator_count() : catalogue.count;
     source *sources = calloc((size_t)*count, sizeof *sources);
@@ -111,8 +112,8 @@ static source *load(int argc, const char *const *argv, int *count)
         sources[i].clip = made.clip;
         memset(&made.clip, 0, sizeof made.clip);
         ff_generated_free(&made);
-        sources[i].good =
-            status == FF_OK && ff_plants_find(&sources[i].clip, &sources[i].plants, &error) == FF_OK;
+        sources[i].good = status == FF_OK && ff_plants_find(&sources[i].clip, &standard()->find,
+                                                            &sources[i].plants, &error) == FF_OK;
     }
     ff_catalogue_free(&catalogue);
     return sources;
@@ -187,7 +188,9 @@ static void measure(source *sources, int count, const ff_rig *rig, bool clean)
         source *s = &sources[i];
         ff_clean_report report;
         if (!s->good || ff_motion_from_clip(rig, &s->clip, &s->plants, &s->motion, &error) != FF_OK) continue;
-        if (clean && ff_motion_clean(rig, &s->motion, &s->plants, &report, &error) != FF_OK) continue;
+        if (clean &&
+            ff_motion_clean(rig, &standard()->cut.clean, &s->motion, &s->plants, &report, &error) != FF_OK)
+            continue;
         double start = now();
         code(&content, s, &coded[i]);
         spent += now() - start;

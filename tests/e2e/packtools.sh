@@ -74,9 +74,10 @@ the_reference_is_a_configuration_that_changes_nothing() {
     run 0 "$pack" config && silent err && cp "$work/out" "$work/reference.json" || return 1
     build 0 -o "$work/z.ffpack" --no-cache --config "$work/reference.json" && same "$work/cold.ffpack" "$work/z.ffpack" || return 1
     # Every setting stands in the reference with a comment, and in the provenance of a pack.
-    for key in $(sed -n 's/^    "\([a-z_]*\)": .*/\1/p' "$work/reference.json"); do
-        grep -q "^    \"// $key\": \".* to .*: \|^    \"// $key\": \"true or false: " "$work/reference.json" || { echo "$key has no comment" && return 1; }
-        "$pack" inspect --json "$work/z.ffpack" | grep -q "\"$key\": " || { echo "$key is not in the provenance" && return 1; }
+    "$pack" inspect --json "$work/z.ffpack" >"$work/provenance.json" || return 1
+    for key in $(sed -n 's/^    "\([a-z_0-9]*\)": .*/\1/p' "$work/reference.json"); do
+        grep -q "^    \"// $key\": \".* to .*: \|^    \"// $key\": \"true or false: \|^    \"// $key\": \"a file, " "$work/reference.json" || { echo "$key has no comment" && return 1; }
+        grep -q "\"$key\": " "$work/provenance.json" || { echo "$key is not in the provenance" && return 1; }
     done
 }
 the_printed_reference_is_the_one_in_the_house() {

@@ -5,6 +5,7 @@
 #include "mocap/generator/generator.h"
 #include "preprocess/motion.h"
 #include "tests/preprocess/clip_change.h"
+#include "tests/preprocess/standard.h"
 
 typedef struct made_motion {
     ff_clip clip;
@@ -39,7 +40,7 @@ static inline made_motion make_motion(const ff_rig *rig, ff_clip clip)
     made_motion made;
     ff_error error;
     made.clip = clip;
-    FF_ASSERT_OK(ff_plants_find(&made.clip, &made.plants, &error), error);
+    FF_ASSERT_OK(ff_plants_find(&made.clip, &standard()->find, &made.plants, &error), error);
     FF_ASSERT_OK(ff_motion_from_clip(rig, &made.clip, &made.plants, &made.motion, &error), error);
     return made;
 }

@@ -6,6 +6,7 @@
 #include "mocap/load.h"
 #include "preprocess/plants.h"
 #include "tests/check.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -166,9 +167,9 @@ static inline void score_all(const char *shared, void (*change)(ff_clip *), scor
         ff_error error;
         FF_ASSERT_OK(ff_clip_load(path, &options, &clip, &error), error);
         assert_int_equal(clip.frame_count, labels[from].frames);
-        FF_ASSERT_OK(ff_breaks_repair(&clip, &breaks, &error), error);
+        FF_ASSERT_OK(ff_breaks_repair(&clip, &standard()->find.breaks, &breaks, &error), error);
         if (change) change(&clip);
-        FF_ASSERT_OK(ff_plants_find(&clip, &plants, &error), error);
+        FF_ASSERT_OK(ff_plants_find(&clip, &standard()->find, &plants, &error), error);
         assert_in_range(plants.count, 1, MOST_LABELS);
         for (int t = 0; t < 2; ++t)
             score_clip(&plants, labels + from, to - from, t, sum);

@@ -7,6 +7,7 @@
 #include "runtime/core/pack.h"
 #include "tests/core/pack_seal.h"
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -63,7 +64,7 @@ static built build_in(int64_t actions, bool derive)
     built b;
     size_t size;
     settings.quiet = true;
-    settings.pack.motion.clean = false; /* takes long, and changes nothing here */
+    settings.pack.cut.motion.clean = false; /* takes long, and changes nothing here */
     settings.pack.actions.count = actions;
     settings.pack.actions.derive = derive;
     FF_ASSERT_OK(ff_catalogue_read(inputs, 1, &catalogue, &error), error);
@@ -92,7 +93,8 @@ static cut_clip cut(const ff_rig *rig, ff_clip clip)
     cut_clip c;
     ff_error error;
     c.made = make_motion(rig, clip);
-    FF_ASSERT_OK(ff_actions_cut(rig, &c.made.motion, &c.made.plants, -1, &c.actions, &error), error);
+    FF_ASSERT_OK(
+        ff_actions_cut(&standard()->cut, rig, &c.made.motion, &c.made.plants, -1, &c.actions, &error), error);
     return c;
 }
 
@@ -249,13 +251,13 @@ static void the_step_that_followed_is_the_nearest(void **state)
         const ff_action *a = &c.actions.items[i], *b = &c.actions.items[i + 1];
         if (b->first_frame != a->last_frame) continue;
         const ff_action_joins p = {a->start, a->end}, q = {b->start, b->end};
-        assert_true(ff_may_follow(&a->record, &b->record));
+        assert_true(ff_may_follow(&standard()->successors, &a->record, &b->record));
         FF_ASSERT_BELOW(ff_join_distance(&a->record, &p, &b->record, &q, 1.0), 1e-4);
         ++pairs;
     }
     assert_true(pairs >= 5);
-    assert_false(
-        ff_may_follow(&c.actions.items[0].record, &c.actions.items[0].record)); /* the same foot again */
+    assert_false(ff_may_follow(&standard()->successors, &c.actions.items[0].record,
+                               &c.actions.items[0].record)); /* the same foot again */
     cut_free(&c);
 }
 
@@ -272,8 +274,8 @@ static void the_distance_is_in_metres(void **state)
             q.start.at[k][j][1] += 0.07f;
     const ff_pack_action *a = &c.actions.items[0].record, *b = &c.actions.items[1].record;
     FF_ASSERT_NEAR(ff_join_distance(a, &p, b, &q, 1.0), 0.07, 1e-6);
-    FF_ASSERT_NEAR(ff_join_limit(28), 0.15, 1e-12);
-    FF_ASSERT_NEAR(ff_join_limit(300), 0.10, 1e-12);
+    FF_ASSERT_NEAR(ff_join_limit(&standard()->successors, 28), 0.15, 1e-12);
+    FF_ASSERT_NEAR(ff_join_limit(&standard()->successors, 300), 0.10, 1e-12);
     cut_free(&c);
 }
 

@@ -5,6 +5,7 @@
 #include "mocap/load.h"
 #include "preprocess/steps.h"
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 
@@ -12,7 +13,7 @@ static ff_breaks find(const ff_clip *clip)
 {
     ff_breaks breaks;
     ff_error error;
-    FF_ASSERT_OK(ff_breaks_find(clip, &breaks, &error), error);
+    FF_ASSERT_OK(ff_breaks_find(clip, &standard()->find.breaks, &breaks, &error), error);
     return breaks;
 }
 
@@ -57,7 +58,7 @@ static void a_single_wild_frame_is_put_back(void **state)
     assert_true(ff_length3(ff_sub3(joint_at(&clip, frame, FF_ROLE_BALL_L), was)) > 0.1);
     ff_breaks breaks;
     ff_error error;
-    FF_ASSERT_OK(ff_breaks_repair(&clip, &breaks, &error), error);
+    FF_ASSERT_OK(ff_breaks_repair(&clip, &standard()->find.breaks, &breaks, &error), error);
     assert_int_equal(breaks.count, 1);
     assert_int_equal(breaks.items[0].kind, FF_BREAK_SPIKE);
     assert_int_equal(breaks.items[0].first, frame);
@@ -88,7 +89,8 @@ static void a_jump_of_the_root_is_found_and_no_step_or_plant_goes_across_it(void
         assert_false(made.plants.items[i].start < frame && made.plants.items[i].end >= frame);
     ff_actions actions;
     ff_error error;
-    FF_ASSERT_OK(ff_actions_cut(&rig, &made.motion, &made.plants, -1, &actions, &error), error);
+    FF_ASSERT_OK(ff_actions_cut(&standard()->cut, &rig, &made.motion, &made.plants, -1, &actions, &error),
+                 error);
     assert_true(actions.count > 4);
     bool said = false;
     for (int i = 0; i < actions.count; ++i)

@@ -3,6 +3,7 @@
 #include "preprocess/clean_finish.h"
 #include "preprocess/clean_knots.h"
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include "mocap/load.h"
 
@@ -36,6 +37,7 @@ static void tried_begin(tried *t, ff_random *random)
     }
     t->plant = (ff_clean_plant){.heel_height = 0.03, .ball_height = 0.025};
     t->problem = (ff_clean_problem){.rig = &t->rig,
+                                    .settings = &standard()->cut.clean,
                                     .knot_time = 1.0 / 60.0,
                                     .knot_count = 1,
                                     .plant_count = 1,
@@ -215,7 +217,9 @@ static void sliding_feet_are_brought_to_stand_exactly(void **state)
         ff_error error;
         add_skate(&made.motion, 0.02);
         assert_true(strays(&rig, &made.motion, &made.plants, false) > 0.02);
-        FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error), error);
+        FF_ASSERT_OK(
+            ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &report, &error),
+            error);
         FF_ASSERT_BELOW(strays(&rig, &made.motion, &made.plants, false), 1e-6);
         FF_ASSERT_BELOW(strays(&rig, &made.motion, &made.plants, true), 0.002); /* legs are short for it */
         FF_ASSERT_BELOW(report.pin_worst.after, 1e-6);
@@ -245,7 +249,8 @@ static void a_body_of_other_proportions_keeps_its_steps(void **state)
     ff_clean_report report;
     ff_error error;
     add_skate(&made.motion, 0.01);
-    FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error), error);
+    FF_ASSERT_OK(ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &report, &error),
+                 error);
     FF_ASSERT_BELOW(report.turn_mean, 1.5 * FF_DEG);
     const ff_plant *last = NULL;
     ff_vec3 stood = {0.0, 0.0, 0.0};
@@ -277,7 +282,9 @@ static void feet_that_stand_are_left_alone_to_the_last_bit(void **state)
         ff_clean_report report;
         ff_error error;
         FF_ASSERT_OK(ff_motion_copy(&made.motion, &before, &error), error);
-        FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error), error);
+        FF_ASSERT_OK(
+            ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &report, &error),
+            error);
         assert_true(report.was_clean);
         size_t n = (size_t)before.frame_count;
         assert_memory_equal(before.hips, made.motion.hips, n * sizeof *before.hips);
@@ -298,8 +305,8 @@ static void the_same_motion_gives_the_same_bits(void **state)
     ff_error error;
     add_skate(&x.motion, 0.015);
     add_skate(&y.motion, 0.015);
-    FF_ASSERT_OK(ff_motion_clean(&rig, &x.motion, &x.plants, &first, &error), error);
-    FF_ASSERT_OK(ff_motion_clean(&rig, &y.motion, &y.plants, &second, &error), error);
+    FF_ASSERT_OK(ff_motion_clean(&rig, &standard()->cut.clean, &x.motion, &x.plants, &first, &error), error);
+    FF_ASSERT_OK(ff_motion_clean(&rig, &standard()->cut.clean, &y.motion, &y.plants, &second, &error), error);
     size_t n = (size_t)x.motion.frame_count;
     assert_memory_equal(x.motion.hips, y.motion.hips, n * sizeof *x.motion.hips);
     assert_memory_equal(x.motion.rotations, y.motion.rotations,
@@ -318,7 +325,9 @@ static void other_rates_are_cleaned_alike(void **state)
         ff_clean_report report;
         ff_error error;
         add_skate(&made.motion, 0.02);
-        FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error), error);
+        FF_ASSERT_OK(
+            ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &report, &error),
+            error);
         FF_ASSERT_BELOW(strays(&rig, &made.motion, &made.plants, false), 1e-6);
         FF_ASSERT_BELOW(strays(&rig, &made.motion, &made.plants, true), 0.002); /* legs are short for it */
         FF_ASSERT_BELOW(report.turn_mean, 2.5 * FF_DEG);
@@ -340,10 +349,12 @@ static void short_motions_and_motions_without_plants_work(void **state)
         ff_error error;
         add_skate(&made.motion, 0.5);
         made.motion.hips[0].z -= 0.1; /* so that there is something to do */
-        FF_ASSERT_OK(ff_clean_measure(&rig, &made.motion, &made.motion, &made.plants, &report, &error),
+        FF_ASSERT_OK(ff_clean_measure(&rig, &standard()->cut.clean, &made.motion, &made.motion, &made.plants,
+                                      &report, &error),
                      error);
         made.plants.count = 0;
-        ff_status status = ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error);
+        ff_status status =
+            ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &report, &error);
         assert_true(status == FF_OK || status == FF_ERR_RANGE);
         for (int k = 0; k < frames; ++k)
             assert_true(isfinite(made.motion.hips[k].x) && isfinite(made.motion.hips[k].z));
@@ -361,7 +372,9 @@ static void a_motion_that_cannot_be_cleaned_is_refused_and_says_why(void **state
     ff_clean_report report;
     ff_error error;
     add_skate(&made.motion, 0.4);
-    assert_int_equal(ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error), FF_ERR_RANGE);
+    assert_int_equal(
+        ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &report, &error),
+        FF_ERR_RANGE);
     assert_non_null(strstr(error.message, "cannot be brought over cleanly"));
     assert_non_null(strstr(error.message, "limit"));
     made_motion_free(&made);
@@ -418,7 +431,8 @@ static void captured_clips_meet_what_is_asked_of_them(void **state)
         made_motion made = make_motion(&rig, clip);
         ff_motion before;
         FF_ASSERT_OK(ff_motion_copy(&made.motion, &before, &error), error);
-        FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &r, &error), error);
+        FF_ASSERT_OK(ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &r, &error),
+                     error);
         FF_ASSERT_BELOW(new_jerk(&rig, &before, &made.motion), 45.0);
         ff_motion_free(&before);
         FF_ASSERT_BELOW(r.pin_median.after, 0.0001);

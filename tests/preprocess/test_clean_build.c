@@ -27,7 +27,7 @@ static image build_image(const ff_catalogue *catalogue, uint32_t threads, bool c
     image out;
     settings.quiet = true;
     settings.threads = threads;
-    settings.pack.motion.clean = clean;
+    settings.pack.cut.motion.clean = clean;
     FF_ASSERT_OK(ff_build(catalogue, &settings, &built, &error), error);
     FF_ASSERT_OK(ff_pack_image(&built.content, &out.data, &out.size, &error), error);
     ff_build_result_free(&built);

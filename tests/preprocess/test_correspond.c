@@ -1,6 +1,7 @@
 /* Correspondences: alignment against planted motions, the map against the plain formula, planted time warps found again,
  * order and spacing, the same bytes from any number of threads. */
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include "preprocess/correspond_set.h"
 #include "runtime/core/base/random.h"
@@ -128,7 +129,8 @@ static void find_warp(double bend, double tolerance)
     ff_cycle_side side[2] = {{&first, &windows[0], NULL}, {&second, &windows[1], NULL}};
     static double map[FF_MAP_SIDE * FF_MAP_SIDE];
     ff_cycle_pairs pairs;
-    FF_ASSERT_OK(ff_correspond(&side[0], &side[1], 0.05, map, &pairs, &error), error);
+    FF_ASSERT_OK(ff_correspond(&standard()->correspondences, &side[0], &side[1], 0.05, map, &pairs, &error),
+                 error);
     assert_true(pairs.count >= 6);
     assert_false(pairs.by_keys);
     check_order(&pairs);
@@ -216,10 +218,12 @@ static ff_example_set set_of(const char *const *names, int count, const ff_rig *
     ff_example_set set;
     for (int i = 0; i < count; ++i) {
         made[i] = make_motion(rig, generated_clip(names[i]));
-        FF_ASSERT_OK(ff_cycles_cut(rig, &made[i].motion, &made[i].plants, 0, names[i], &cycles[i], &error),
+        FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, rig, &made[i].motion, &made[i].plants, 0,
+                                   names[i], &cycles[i], &error),
                      error);
     }
-    FF_ASSERT_OK(ff_examples_select(rig, cycles, subject, count, &set, &error), error);
+    FF_ASSERT_OK(ff_examples_select(&standard()->cut.examples, rig, cycles, subject, count, &set, &error),
+                 error);
     for (int i = 0; i < count; ++i) {
         ff_cycles_free(&cycles[i]);
         made_motion_free(&made[i]);
@@ -242,7 +246,9 @@ static void examples_correspond_in_order_within_the_limits_on_any_number_of_thre
         ff_tasks *tasks;
         ff_error error;
         FF_ASSERT_OK(ff_tasks_create(1 + 2 * i, &tasks, &error), error);
-        FF_ASSERT_OK(ff_correspond_set(&rig, &set, gait, tasks, &found[i], &error), error);
+        FF_ASSERT_OK(
+            ff_correspond_set(&standard()->correspondences, &rig, &set, gait, tasks, &found[i], &error),
+            error);
         ff_tasks_destroy(tasks);
     }
     assert_int_equal(found[0].count, set.count * (set.count - 1) / 2);
@@ -281,7 +287,9 @@ static void walks_at_two_speeds_agree_where_their_keys_do(void **state)
     for (int i = 0; i < 2; ++i) {
         made_motion made = make_motion(&rig, generated_clip(names[i]));
         ff_cycles cycles;
-        FF_ASSERT_OK(ff_cycles_cut(&rig, &made.motion, &made.plants, 0, names[i], &cycles, &error), error);
+        FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, &rig, &made.motion, &made.plants, 0, names[i],
+                                   &cycles, &error),
+                     error);
         e[i] = cycles.items[1];
         memset(&cycles.items[1], 0, sizeof cycles.items[1]);
         FF_ASSERT_OK(ff_point_cycle_from_example(&rig, &e[i], &cycle[i], &error), error);
@@ -293,7 +301,9 @@ static void walks_at_two_speeds_agree_where_their_keys_do(void **state)
                              {&cycle[1], &windows[1], e[1].record.key}};
     static double map[FF_MAP_SIDE * FF_MAP_SIDE];
     ff_cycle_pairs pairs;
-    FF_ASSERT_OK(ff_correspond(&side[0], &side[1], FF_PAIR_LIMIT_STRAIGHT, map, &pairs, &error), error);
+    FF_ASSERT_OK(ff_correspond(&standard()->correspondences, &side[0], &side[1], FF_PAIR_LIMIT_STRAIGHT, map,
+                               &pairs, &error),
+                 error);
     assert_true(pairs.count >= 4);
     for (int i = 0; i < pairs.count; ++i)
         FF_ASSERT_BELOW(off_by(pairs.pair[i].phase[0], pairs.pair[i].phase[1]), 0.05);

@@ -1,6 +1,7 @@
 /* Gait examples: cycles of generated clips must have the rates the clips were made with, close, hold their feet still
  * while locked, and make a set that is the same to the left as to the right. */
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include "preprocess/derive.h"
 #include "preprocess/examples.h"
@@ -9,7 +10,8 @@ static ff_cycles cut(const ff_rig *rig, const made_motion *made)
 {
     ff_cycles cycles;
     ff_error error;
-    FF_ASSERT_OK(ff_cycles_cut(rig, &made->motion, &made->plants, 0, made->clip.name, &cycles, &error),
+    FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, rig, &made->motion, &made->plants, 0, made->clip.name,
+                               &cycles, &error),
                  error);
     return cycles;
 }
@@ -257,7 +259,8 @@ static void one_walking_clip_is_enough_for_a_set_that_turns_both_ways(void **sta
     int subject = 0;
     ff_example_set set;
     ff_error error;
-    FF_ASSERT_OK(ff_examples_select(&rig, &cycles, &subject, 1, &set, &error), error);
+    FF_ASSERT_OK(ff_examples_select(&standard()->cut.examples, &rig, &cycles, &subject, 1, &set, &error),
+                 error);
     assert_true(set.items[0].record.flags & FF_EXAMPLE_IDLE);
     bool in_place = false, left = false, back = false, side = false;
     for (int i = 0; i < set.count; ++i) {
@@ -293,7 +296,8 @@ static void the_person_with_most_walks_is_the_base(void **state)
     }
     ff_example_set set;
     ff_error error;
-    FF_ASSERT_OK(ff_examples_select(&rig, cycles, subject, 4, &set, &error), error);
+    FF_ASSERT_OK(ff_examples_select(&standard()->cut.examples, &rig, cycles, subject, 4, &set, &error),
+                 error);
     assert_int_equal(set.base, 4);
     for (int i = 0; i < set.count; ++i)
         assert_true(set.items[i].clip != 3);
@@ -313,12 +317,15 @@ static void clips_without_a_straight_walk_are_refused(void **state)
     ff_cycles cycles = cut(&rig, &made);
     assert_int_equal(cycles.count, 0);
     ff_error error;
-    FF_ASSERT_OK(ff_cycles_cut_idle(&rig, &made.motion, &made.plants, 0, "idle", &cycles, &error), error);
+    FF_ASSERT_OK(ff_cycles_cut_idle(&standard()->cut.cycles, &rig, &made.motion, &made.plants, 0, "idle",
+                                    &cycles, &error),
+                 error);
     assert_int_equal(cycles.count, 1);
     FF_ASSERT_BELOW((double)cycles.items[0].record.seam, 0.01);
     int subject = 0;
     ff_example_set set;
-    assert_int_equal(ff_examples_select(&rig, &cycles, &subject, 1, &set, &error), FF_ERR_NO_DATA);
+    assert_int_equal(ff_examples_select(&standard()->cut.examples, &rig, &cycles, &subject, 1, &set, &error),
+                     FF_ERR_NO_DATA);
     ff_cycles_free(&cycles);
     made_motion_free(&made);
 }

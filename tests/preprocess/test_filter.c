@@ -4,6 +4,7 @@
 #include "preprocess/floor.h"
 #include "runtime/core/base/random.h"
 #include "tests/check.h"
+#include "tests/preprocess/standard.h"
 
 enum { N = 600 };
 static const double RATE = 120.0;
@@ -120,7 +121,7 @@ static void the_floor_is_found_under_both_feet_and_without_what_is_in_the_air(vo
     (void)state;
     ff_floor_sample rests[16];
     int count = make_rests(rests, ff_v2(0.018, -0.006), 0.015);
-    ff_floor_fit fit = ff_floor_solve(rests, count);
+    ff_floor_fit fit = ff_floor_solve(&standard()->find.floor, rests, count);
     FF_ASSERT_NEAR(fit.slope.a, 0.018, 0.001);
     FF_ASSERT_NEAR(fit.slope.b, -0.006, 0.003);
     FF_ASSERT_NEAR(fit.level[FF_RIGHT], 0.07, 0.004);
@@ -131,7 +132,7 @@ static void one_rest_gives_a_level_floor(void **state)
 {
     (void)state;
     ff_floor_sample rest = {FF_LEFT, {3.0, 0.05, -2.0}, 0.5};
-    ff_floor_fit fit = ff_floor_solve(&rest, 1);
+    ff_floor_fit fit = ff_floor_solve(&standard()->find.floor, &rest, 1);
     FF_ASSERT_NEAR(fit.slope.a, 0.0, 1e-9);
     FF_ASSERT_NEAR(fit.slope.b, 0.0, 1e-9);
     FF_ASSERT_NEAR(fit.level[FF_LEFT], 0.05, 1e-3);

@@ -4,6 +4,7 @@
 
 #include "mocap/load.h"
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 
@@ -41,8 +42,8 @@ static ff_gait_figures measure(const char *path)
     ff_plants plants;
     ff_gait_figures figures;
     FF_ASSERT_OK(ff_clip_load(path, &options, &clip, &error), error);
-    FF_ASSERT_OK(ff_breaks_repair(&clip, &breaks, &error), error);
-    FF_ASSERT_OK(ff_plants_find(&clip, &plants, &error), error);
+    FF_ASSERT_OK(ff_breaks_repair(&clip, &standard()->find.breaks, &breaks, &error), error);
+    FF_ASSERT_OK(ff_plants_find(&clip, &standard()->find, &plants, &error), error);
     FF_ASSERT_OK(ff_gait_figures_find(&clip, &plants, &figures, &error), error);
     ff_plants_free(&plants);
     ff_breaks_free(&breaks);
@@ -102,7 +103,7 @@ static void measures_what_the_generator_was_asked_for(void **state)
         ff_plants plants;
         ff_gait_figures f;
         ff_error error;
-        FF_ASSERT_OK(ff_plants_find(&clip, &plants, &error), error);
+        FF_ASSERT_OK(ff_plants_find(&clip, &standard()->find, &plants, &error), error);
         FF_ASSERT_OK(ff_gait_figures_find(&clip, &plants, &f, &error), error);
         FF_ASSERT_NEAR(f.speed_net, asked[i].speed, 0.02 * asked[i].speed);
         FF_ASSERT_NEAR(f.turn, asked[i].turn * f.seconds, 5.0 * FF_DEG);

@@ -1,6 +1,7 @@
 /* The semi-procedural clip: it is its own clip at its own speed, follows other walks at theirs, and its feet stand still
  * at any rates. */
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include "preprocess/cycles.h"
 #include "preprocess/gait_fit.h"
@@ -22,7 +23,9 @@ static ff_example walk_of(const ff_rig *rig, const char *name)
     made_motion made = make_motion(rig, generated_clip(name));
     ff_cycles cycles;
     ff_error error;
-    FF_ASSERT_OK(ff_cycles_cut(rig, &made.motion, &made.plants, 0, name, &cycles, &error), error);
+    FF_ASSERT_OK(
+        ff_cycles_cut(&standard()->cut.cycles, rig, &made.motion, &made.plants, 0, name, &cycles, &error),
+        error);
     assert_true(cycles.count > 1);
     ff_example walk = cycles.items[1];
     memset(&cycles.items[1], 0, sizeof cycles.items[1]);

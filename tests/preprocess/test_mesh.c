@@ -3,6 +3,7 @@
 #include "preprocess/mesh.h"
 #include "preprocess/retarget.h"
 #include "tests/check.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 
@@ -109,7 +110,7 @@ static void three_triangles_at_an_edge_are_taken_apart(void **state)
         add_triangle(&mesh, a, b, add_vertex(&mesh, ff_v3(cos(2.0 * i), 0, sin(2.0 * i)), 0));
     ff_mesh_faults faults = {0};
     ff_error error;
-    FF_ASSERT_OK(ff_mesh_reduce(&mesh, 100, &out, &faults, &error), error);
+    FF_ASSERT_OK(ff_mesh_reduce(&mesh, 100, 60.0, &out, &faults, &error), error);
     assert_int_equal(out.triangle_count, 3);
     assert_in_range(faults.torn, 1, 2);
     ff_mesh_free(&out);
@@ -126,7 +127,7 @@ static void a_ball_stays_a_ball_at_every_level(void **state)
     ff_error error;
     FF_ASSERT_OK(ff_mesh_clean(&ball, &faults, &error), error);
     assert_int_equal(faults.degenerate, 2 * SECTORS);
-    FF_ASSERT_OK(ff_mesh_levels(&ball, levels, &faults, &error), error);
+    FF_ASSERT_OK(ff_mesh_levels(&standard()->skin, &ball, levels, &faults, &error), error);
     assert_int_equal(levels[0].triangle_count, ball.triangle_count);
     for (int i = 0; i < FF_MESH_LEVELS; ++i) {
         const ff_mesh *mesh = &levels[i];
@@ -161,7 +162,7 @@ static void a_box_keeps_its_edges(void **state)
     }
     ff_mesh_faults faults = {0};
     ff_error error;
-    FF_ASSERT_OK(ff_mesh_reduce(&box, 100, &out, &faults, &error), error);
+    FF_ASSERT_OK(ff_mesh_reduce(&box, 100, 60.0, &out, &faults, &error), error);
     FF_ASSERT_NEAR(volume_of(&out), 1.0, 1e-12);
     assert_int_equal(out.vertex_count, 24); /* three normals at each corner */
     for (int i = 0; i < out.vertex_count; ++i) {

@@ -4,6 +4,7 @@
 
 #include "preprocess/steps.h"
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -21,7 +22,7 @@ static ff_plants find_edited(const ff_clip *clip, const char *text)
     ff_plant_edits edits = parse(text);
     ff_plants plants;
     ff_error error;
-    FF_ASSERT_OK(ff_plants_find_edited(clip, &edits, &plants, &error), error);
+    FF_ASSERT_OK(ff_plants_find_edited(clip, &standard()->find, &edits, &plants, &error), error);
     ff_plant_edits_free(&edits);
     return plants;
 }
@@ -40,7 +41,7 @@ static void what_a_person_wrote_holds(void **state)
     ff_clip clip = generated_clip("walk-normal");
     ff_plants found;
     ff_error error;
-    FF_ASSERT_OK(ff_plants_find(&clip, &found, &error), error);
+    FF_ASSERT_OK(ff_plants_find(&clip, &standard()->find, &found, &error), error);
     const ff_plant *second = plant_at(&found, FF_LEFT, 180), *third = plant_at(&found, FF_RIGHT, 250);
     assert_true(second && third && !second->written);
     ff_plants plants = find_edited(&clip, "{\"move\": [{\"foot\": \"left\", \"frame\": 180, \"start\": 150, "
@@ -77,7 +78,8 @@ static void steps_follow_the_written_plants(void **state)
         find_edited(&clip, "{\"move\": [{\"foot\": \"left\", \"frame\": 180, \"flat\": [170, 190]}]}");
     ff_actions actions;
     ff_error error;
-    FF_ASSERT_OK(ff_actions_cut(&rig, &made.motion, &made.plants, -1, &actions, &error), error);
+    FF_ASSERT_OK(ff_actions_cut(&standard()->cut, &rig, &made.motion, &made.plants, -1, &actions, &error),
+                 error);
     bool lands = false, leaves = false;
     for (int i = 0; i < actions.count; ++i) {
         lands = lands || (actions.items[i].last_frame == 170 && actions.items[i].record.swing == FF_LEFT);
@@ -96,7 +98,7 @@ static void a_written_list_replaces_all(void **state)
     ff_plants found;
     ff_error error;
     char *text;
-    FF_ASSERT_OK(ff_plants_find(&clip, &found, &error), error);
+    FF_ASSERT_OK(ff_plants_find(&clip, &standard()->find, &found, &error), error);
     FF_ASSERT_OK(ff_plant_edits_write(&found, &text, &error), error);
     ff_plants same = find_edited(&clip, text);
     assert_int_equal(same.count, found.count);
@@ -166,7 +168,7 @@ static void what_does_not_fit_is_refused_with_its_line(void **state)
         ff_status status =
             ff_plant_edits_parse(bad[i].text, strlen(bad[i].text), "x.plants.json", &edits, &error);
         if (status == FF_OK) {
-            status = ff_plants_find_edited(&clip, &edits, &plants, &error);
+            status = ff_plants_find_edited(&clip, &standard()->find, &edits, &plants, &error);
             ff_plant_edits_free(&edits);
         }
         if (status == FF_OK || !strstr(error.message, bad[i].says) || error.line != bad[i].line)

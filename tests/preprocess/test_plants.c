@@ -3,6 +3,7 @@
 
 #include "mocap/generator/generator.h"
 #include "tests/preprocess/clip_change.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 
@@ -26,7 +27,7 @@ static ff_plants find(const ff_clip *clip)
 {
     ff_plants plants;
     ff_error error;
-    FF_ASSERT_OK(ff_plants_find(clip, &plants, &error), error);
+    FF_ASSERT_OK(ff_plants_find(clip, &standard()->find, &plants, &error), error);
     return plants;
 }
 
@@ -283,7 +284,7 @@ static void a_skeleton_without_ankles_is_refused(void **state)
         if (made.clip.joints[j].role == FF_ROLE_ANKLE_R) made.clip.joints[j].role = FF_ROLE_NONE;
     ff_plants plants;
     ff_error error;
-    assert_int_equal(ff_plants_find(&made.clip, &plants, &error), FF_ERR_NO_DATA);
+    assert_int_equal(ff_plants_find(&made.clip, &standard()->find, &plants, &error), FF_ERR_NO_DATA);
     assert_non_null(strstr(error.message, "ankle"));
     assert_null(plants.items);
     ff_generated_free(&made);

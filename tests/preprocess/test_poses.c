@@ -7,6 +7,7 @@
 #include "runtime/core/joints.h"
 #include "runtime/core/pose_stream.h"
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #define MEAN 0.5e-3 /* m: issue 3, bar 5 */
 #define P99 2e-3
@@ -152,7 +153,9 @@ static void captured_clips_are_within_the_bound_with_feet_cleaned(void **state)
         ff_rig rig = rig_of(&clip);
         made_motion made = make_motion(&rig, clip);
         ff_clean_report report;
-        FF_ASSERT_OK(ff_motion_clean(&rig, &made.motion, &made.plants, &report, &error), error);
+        FF_ASSERT_OK(
+            ff_motion_clean(&rig, &standard()->cut.clean, &made.motion, &made.plants, &report, &error),
+            error);
         streams s = begin(&rig);
         ff_pose_motion motion = poses_of(&made.motion, made.clip.rest_frames);
         FF_ASSERT_BELOW(add(&s, &motion), BYTES);

@@ -1,6 +1,7 @@
 /* Sets of clips without a whole straight walking cycle: one step and its mirror image make one, symmetric to the bit and
  * with the clip's own rates; then a cycle that closes badly; and when nothing will do, the message says what there is. */
 #include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/standard.h"
 
 #include "preprocess/example_judge.h"
 #include "preprocess/examples.h"
@@ -9,7 +10,8 @@ static ff_cycles cut(const ff_rig *rig, const made_motion *made)
 {
     ff_cycles cycles;
     ff_error error;
-    FF_ASSERT_OK(ff_cycles_cut(rig, &made->motion, &made->plants, 0, made->clip.name, &cycles, &error),
+    FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, rig, &made->motion, &made->plants, 0, made->clip.name,
+                               &cycles, &error),
                  error);
     return cycles;
 }
@@ -22,7 +24,8 @@ static ff_cycles cut_half(const ff_rig *rig, const made_motion *made)
     for (int i = 0; i < cycles.count; ++i)
         ff_example_free(&cycles.items[i]);
     cycles.count = 0;
-    FF_ASSERT_OK(ff_cycles_cut_half(rig, &made->motion, &made->plants, 0, made->clip.name, &cycles, &error),
+    FF_ASSERT_OK(ff_cycles_cut_half(&standard()->cut.cycles, rig, &made->motion, &made->plants, 0,
+                                    made->clip.name, &cycles, &error),
                  error);
     return cycles;
 }
@@ -58,7 +61,7 @@ static void a_step_and_its_mirror_image_are_a_symmetric_walk_of_the_same_rates(v
             ff_error error;
             assert_true(r->flags & FF_EXAMPLE_LOOSE);
             assert_true(ff_example_is_model(e));
-            assert_true(ff_example_judge(&rig, e, why, sizeof why));
+            assert_true(ff_example_judge(&standard()->cut.examples, &rig, e, why, sizeof why));
             FF_ASSERT_NEAR((double)r->v_forward, (double)w->v_forward, 0.02);
             FF_ASSERT_NEAR((double)r->period, (double)w->period, 0.02);
             for (int k = 0; k < 4; ++k)
@@ -82,7 +85,7 @@ static void a_step_and_its_mirror_image_are_a_symmetric_walk_of_the_same_rates(v
 static ff_status choose(const ff_rig *rig, ff_cycles *cycles, ff_example_set *set, ff_error *error)
 {
     int subject = 0;
-    return ff_examples_select(rig, cycles, &subject, 1, set, error);
+    return ff_examples_select(&standard()->cut.examples, rig, cycles, &subject, 1, set, error);
 }
 
 static void half_cycles_are_taken_when_no_whole_one_will_do_and_only_then(void **state)
@@ -96,7 +99,8 @@ static void half_cycles_are_taken_when_no_whole_one_will_do_and_only_then(void *
         ff_example_set set;
         ff_error error;
         if (with_whole)
-            FF_ASSERT_OK(ff_cycles_cut_half(&rig, &made.motion, &made.plants, 0, "x", &cycles, &error),
+            FF_ASSERT_OK(ff_cycles_cut_half(&standard()->cut.cycles, &rig, &made.motion, &made.plants, 0, "x",
+                                            &cycles, &error),
                          error);
         FF_ASSERT_OK(choose(&rig, &cycles, &set, &error), error);
         assert_int_equal(set.level, with_whole ? FF_LEVEL_FIRM : FF_LEVEL_HALF);

@@ -4,6 +4,7 @@
 
 #include "mocap/generator/generator.h"
 #include "tests/preprocess/clip_change.h"
+#include "tests/preprocess/standard.h"
 
 #include <stdio.h>
 
@@ -19,10 +20,12 @@ typedef struct cut {
 static void cut_clip(cut *c, const ff_clip *clip, int mode_tag)
 {
     ff_error error;
-    FF_ASSERT_OK(ff_plants_find(clip, &c->plants, &error), error);
+    FF_ASSERT_OK(ff_plants_find(clip, &standard()->find, &c->plants, &error), error);
     FF_ASSERT_OK(ff_rig_from_clips(&clip, 1, &c->rig, &error), error);
     FF_ASSERT_OK(ff_motion_from_clip(&c->rig, clip, &c->plants, &c->motion, &error), error);
-    FF_ASSERT_OK(ff_actions_cut(&c->rig, &c->motion, &c->plants, mode_tag, &c->actions, &error), error);
+    FF_ASSERT_OK(
+        ff_actions_cut(&standard()->cut, &c->rig, &c->motion, &c->plants, mode_tag, &c->actions, &error),
+        error);
 }
 
 static cut cut_generated(const char *name, bool reflected, int mode_tag)
@@ -51,22 +54,24 @@ static void energy_of_known_paths(void **state)
     enum { N = 241 };
     static ff_vec3 root[N];
     double dt = 1.0 / 120.0, seconds = (N - 1) * dt;
-    FF_ASSERT_NEAR(ff_walk_energy(root, 0, N - 1, dt), 2.23 * seconds, 1e-9); /* standing */
-    FF_ASSERT_NEAR(ff_walk_energy(root, 7, 7, dt), 0.0, 0.0);
+    FF_ASSERT_NEAR(ff_walk_energy(&standard()->cut.energy, root, 0, N - 1, dt), 2.23 * seconds,
+                   1e-9); /* standing */
+    FF_ASSERT_NEAR(ff_walk_energy(&standard()->cut.energy, root, 7, 7, dt), 0.0, 0.0);
     for (int i = 0; i < N; ++i)
         root[i] = ff_v3(1.1 * i * dt, -0.7 * i * dt, 0.3 * i);
     double constant = 2.23 + 1.26 * (1.1 * 1.1 + 0.7 * 0.7);
-    FF_ASSERT_NEAR(ff_walk_energy(root, 0, N - 1, dt), constant * seconds, 1e-9);
-    FF_ASSERT_NEAR(ff_walk_energy(root, 60, 180, dt), constant * 1.0, 1e-9);
+    FF_ASSERT_NEAR(ff_walk_energy(&standard()->cut.energy, root, 0, N - 1, dt), constant * seconds, 1e-9);
+    FF_ASSERT_NEAR(ff_walk_energy(&standard()->cut.energy, root, 60, 180, dt), constant * 1.0, 1e-9);
     for (int i = 0; i < N; ++i)
         root[i] = ff_v3(0.5 * 1.5 * i * dt * i * dt, 0.0, 0.0); /* v = 1.5 t */
     double ramp = 2.23 * seconds + 1.26 * 1.5 * 1.5 * seconds * seconds * seconds / 3.0;
-    FF_ASSERT_NEAR(ff_walk_energy(root, 0, N - 1, dt), ramp, 0.005 * ramp);
+    FF_ASSERT_NEAR(ff_walk_energy(&standard()->cut.energy, root, 0, N - 1, dt), ramp, 0.005 * ramp);
     /* The best speed costs what the heuristic says per metre (algorithms B.2, section H). */
     double best = sqrt(2.23 / 1.26);
     for (int i = 0; i < N; ++i)
         root[i] = ff_v3(best * i * dt, 0.0, 0.0);
-    FF_ASSERT_NEAR(ff_walk_energy(root, 0, N - 1, dt) / (best * seconds), 3.3525, 1e-4);
+    FF_ASSERT_NEAR(ff_walk_energy(&standard()->cut.energy, root, 0, N - 1, dt) / (best * seconds), 3.3525,
+                   1e-4);
 }
 
 static void a_walk_is_tiled_by_alternating_steps(void **state)
@@ -275,7 +280,8 @@ static void cut_again(cut *c)
 {
     ff_error error;
     ff_actions_free(&c->actions);
-    FF_ASSERT_OK(ff_actions_cut(&c->rig, &c->motion, &c->plants, -1, &c->actions, &error), error);
+    FF_ASSERT_OK(ff_actions_cut(&standard()->cut, &c->rig, &c->motion, &c->plants, -1, &c->actions, &error),
+                 error);
 }
 
 static bool is_rejected(const cut *c, const char *why)

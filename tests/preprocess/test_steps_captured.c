@@ -4,6 +4,7 @@
 
 #include "mocap/load.h"
 #include "tests/check.h"
+#include "tests/preprocess/standard.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -117,9 +118,9 @@ static void steps_begin_on_one_foot_and_end_as_the_other_stands(void **state)
         ff_plants plants;
         ff_motion motion;
         ff_actions actions;
-        FF_ASSERT_OK(ff_plants_find(clips[i], &plants, &error), error);
+        FF_ASSERT_OK(ff_plants_find(clips[i], &standard()->find, &plants, &error), error);
         FF_ASSERT_OK(ff_motion_from_clip(&rig, clips[i], &plants, &motion, &error), error);
-        FF_ASSERT_OK(ff_actions_cut(&rig, &motion, &plants, -1, &actions, &error), error);
+        FF_ASSERT_OK(ff_actions_cut(&standard()->cut, &rig, &motion, &plants, -1, &actions, &error), error);
         for (int k = 0; k < actions.count; ++k) {
             const ff_action *a = &actions.items[k];
             if (a->record.mode == FF_MODE_IDLE) continue;
@@ -171,10 +172,11 @@ static walk walk_cut(const char *shared, const char *name)
     snprintf(path, sizeof path, "%s/data/cmu/%.*s/%s.amc", shared, (int)strcspn(name, "_"), name, name);
     FF_ASSERT_OK(ff_clip_load(path, &options, &w.clip, &error), error);
     const ff_clip *clip = &w.clip;
-    FF_ASSERT_OK(ff_plants_find(clip, &w.plants, &error), error);
+    FF_ASSERT_OK(ff_plants_find(clip, &standard()->find, &w.plants, &error), error);
     FF_ASSERT_OK(ff_rig_from_clips(&clip, 1, &w.rig, &error), error);
     FF_ASSERT_OK(ff_motion_from_clip(&w.rig, clip, &w.plants, &w.motion, &error), error);
-    FF_ASSERT_OK(ff_actions_cut(&w.rig, &w.motion, &w.plants, -1, &w.actions, &error), error);
+    FF_ASSERT_OK(ff_actions_cut(&standard()->cut, &w.rig, &w.motion, &w.plants, -1, &w.actions, &error),
+                 error);
     return w;
 }
 
