@@ -79,11 +79,12 @@ struct ff_blend_space {
     ff_pose_tree tree;
     float offsets[3 * FF_POSE_LANES]; /* of the tree */
     int32_t idle;                     /* vertex index of the idle example (its rates are zero), or -1 */
+    ff_quat rest[FF_JOINT_HIP_L];     /* trunk and arms at the start of the idle example, if there is one */
     double neutral[2][3];             /* per foot: forward, left, yaw of its place under a standing body */
     ff_clip_model model;
 };
 
-#define FF_BLEND_GRID 8 /* cells per axis */
+#define FF_BLEND_GRID 16 /* cells per axis */
 
 /* What is played: a blend of up to four examples, or the semi-procedural clip. */
 typedef struct ff_blend {

@@ -163,6 +163,8 @@ static ff_status read_poses(ff_blend_space *space, ff_error *error)
         }
         ff_pose_align(&space->poses, stream->first_frame, stream->frame_count, FF_JOINT_COUNT, mean);
     }
+    for (uint32_t j = 0; j < FF_JOINT_HIP_L && space->idle >= 0; ++j)
+        space->rest[j] = ff_pose_read(&space->poses, space->vertices[space->idle].first_frame, j);
     return FF_OK;
 }
 

@@ -123,9 +123,31 @@ static void choose(ff_crowd *crowd, uint32_t index)
     ff_gait_want(crowd->space, gait, way, urgent);
 }
 
+/* Agents near each other may be anywhere in memory: have what is read of the next ones brought near. */
+#define AHEAD 3
+static void fetch_ahead(const ff_crowd *crowd, uint32_t index)
+{
+#ifdef __GNUC__
+    if (index + AHEAD >= crowd->grid.count) return;
+    uint32_t slot = crowd->grid.seen[index + AHEAD].slot;
+    const ff_gait *gait = &crowd->gaits[slot];
+    const char *mind = (const char *)&crowd->minds[slot];
+    for (size_t line = 0; line < sizeof *crowd->minds; line += 64)
+        __builtin_prefetch(mind + line, 1);
+    __builtin_prefetch(&gait->foot[0].planted);
+    __builtin_prefetch(&gait->foot[1].planted);
+    __builtin_prefetch(&gait->blend.way);
+    __builtin_prefetch(&crowd->traits[slot]);
+    __builtin_prefetch(&crowd->bodies[slot]);
+#else
+    (void)crowd, (void)index;
+#endif
+}
+
 static void navigate(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
+    fetch_ahead(crowd, index);
     if (ff_is_stepper(crowd, slot)) return;
     const ff_crowd_def *def = &crowd->def;
     bool clip = crowd->gaits[slot].blend.way == FF_SEMI_PROCEDURAL &&

@@ -70,14 +70,15 @@ static ff_foothold subtract(ff_foothold p, ff_foothold q)
     return (ff_foothold){p.a - q.a, p.b - q.b, p.height - q.height, ff_wrap(p.yaw - q.yaw)};
 }
 
-/* How fast the clip's foot moves over the ground about a phase: 0 for a clip without skate at its own rates. */
-static ff_foothold clip_foot_speed(const ff_foot_scene *scene, int foot, double phase, double time)
+/* How fast the clip's foot moves over the ground about a phase, at which it is then: 0 for a clip without skate at its own
+ * rates. */
+static ff_foothold clip_foot_speed(const ff_foot_scene *scene, int foot, double phase, double time,
+                                   ff_foothold then)
 {
     const double h = 0.02;
     double tempo = time > 0.0 ? scene->goal_tempo : scene->tempo;
     double later = ff_phase_advance(scene->space, scene->blend, phase, h * tempo);
-    ff_foothold step =
-        subtract(clip_foot_later(scene, foot, later, time + h), clip_foot_later(scene, foot, phase, time));
+    ff_foothold step = subtract(clip_foot_later(scene, foot, later, time + h), then);
     return (ff_foothold){step.a / h, step.b / h, step.height / h, step.yaw / h};
 }
 
@@ -141,8 +142,9 @@ double ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, d
     state->pitch =
         ff_lerp(state->pitch, pitch, state->stood); /* the clock of a first step has just jumped to it */
     state->from_pitch = state->pitch - ff_sample_foot(scene->space, scene->cursor, foot).pitch;
-    state->from = subtract(state->now, clip_foot_later(scene, foot, release, -since));
-    state->slope = standing_slope(clip_foot_speed(scene, foot, release, -since));
+    ff_foothold clip = clip_foot_later(scene, foot, release, -since);
+    state->from = subtract(state->now, clip);
+    state->slope = standing_slope(clip_foot_speed(scene, foot, release, -since, clip));
     /* The yaw of a foot on its toes means little, so in swing the clip's is not followed: it leads from lock to lock
      * in the frame of the body. */
     state->from.yaw = ff_wrap(state->now.yaw - (scene->heading - scene->rates.turn * since));
@@ -336,6 +338,7 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     keep_sides(other, foot, &wanted);
     if (first) state->lock = wanted;
     replan(state, wanted, state->progress, scene->dt);
-    fly(scene, state, other, foot, landing, standing_slope(clip_foot_speed(scene, foot, start, time)), time);
+    fly(scene, state, other, foot, landing,
+        standing_slope(clip_foot_speed(scene, foot, start, time, landing)), time);
     return false;
 }

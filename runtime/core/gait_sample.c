@@ -18,10 +18,11 @@ static void add_part(ff_cursor *cursor, const ff_blend_vertex *vertex, double fr
 {
     double place = fraction * vertex->frame_count;
     double whole = floor(place);
-    uint32_t frame = (uint32_t)whole % vertex->frame_count;
+    uint32_t count = vertex->frame_count, frame = (uint32_t)whole;
+    if (frame >= count) frame %= count;
     uint32_t part = cursor->count++;
     cursor->part[part].frame[0] = vertex->first_frame + frame;
-    cursor->part[part].frame[1] = vertex->first_frame + (frame + 1) % vertex->frame_count;
+    cursor->part[part].frame[1] = vertex->first_frame + (frame + 1 < count ? frame + 1 : 0);
     cursor->part[part].weight[1] = weight * (place - whole);
     cursor->part[part].weight[0] = weight - cursor->part[part].weight[1];
 }

@@ -12,16 +12,6 @@ ff_vec2 ff_wall_nearest(const ff_wall *wall, ff_vec2 p)
     return ff_madd2(wall->from, wall->along, s);
 }
 
-double ff_time_to_disc(ff_vec2 x, ff_vec2 v, double reach)
-{
-    double square = ff_dot2(v, v), closing = -ff_dot2(x, v), gap = ff_dot2(x, x) - reach * reach;
-    if (gap <= 0.0) return 0.0;
-    double discriminant = closing * closing - square * gap;
-    if (closing <= 0.0 || square < 1e-9 || discriminant <= 0.0) return INFINITY;
-    /* (B - D) / A written as C / (B + D): no cancellation when the two nearly touch. */
-    return gap / (closing + sqrt(discriminant));
-}
-
 ff_vec2 ff_time_to_disc_gradient(ff_vec2 x, ff_vec2 v, double reach)
 {
     double square = ff_dot2(v, v), closing = -ff_dot2(x, v), gap = ff_dot2(x, x) - reach * reach;

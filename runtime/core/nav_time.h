@@ -16,7 +16,15 @@ ff_vec2 ff_wall_nearest(const ff_wall *wall, ff_vec2 p);
 
 /* Seconds until two discs touch: x = p_i - p_j, v = v_i - v_j, reach = r_i + r_j. 0 when they overlap now,
  * INFINITY when they never meet. */
-double ff_time_to_disc(ff_vec2 x, ff_vec2 v, double reach);
+static inline double ff_time_to_disc(ff_vec2 x, ff_vec2 v, double reach)
+{
+    double square = ff_dot2(v, v), closing = -ff_dot2(x, v), gap = ff_dot2(x, x) - reach * reach;
+    if (gap <= 0.0) return 0.0;
+    double discriminant = closing * closing - square * gap;
+    if (closing <= 0.0 || square < 1e-9 || discriminant <= 0.0) return INFINITY;
+    /* (B - D) / A written as C / (B + D): no cancellation when the two nearly touch. */
+    return gap / (closing + sqrt(discriminant));
+}
 
 /* Seconds until a disc at p with velocity v touches the wall; the same conventions. *gradient (may be NULL) =
  * derivative by p: where to shift so that the contact comes later; the way out for an overlap, 0 for INFINITY. */

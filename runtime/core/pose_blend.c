@@ -14,6 +14,13 @@ void ff_pose_write(const ff_pose_store *store, uint32_t frame, uint32_t joint, f
         keys[i * store->lanes] = (int16_t)floor(ff_clamp(part[i], -1.0, 1.0) * ONE + 0.5);
 }
 
+ff_quat ff_pose_read(const ff_pose_store *store, uint32_t frame, uint32_t joint)
+{
+    const int16_t *x = ff_pose_frame(store, frame) + joint, *y = x + store->lanes, *z = y + store->lanes,
+                  *w = z + store->lanes;
+    return ff_quat_unit((ff_quat){*x, *y, *z, *w});
+}
+
 static void turn_over(const ff_pose_store *store, uint32_t frame, uint32_t joint)
 {
     int16_t *keys = ff_pose_frame(store, frame) + joint;

@@ -25,6 +25,7 @@ static inline int16_t *ff_pose_frame(const ff_pose_store *store, uint32_t frame)
 
 /* Joint's rotation of a frame. */
 void ff_pose_write(const ff_pose_store *store, uint32_t frame, uint32_t joint, ff_quat rotation);
+ff_quat ff_pose_read(const ff_pose_store *store, uint32_t frame, uint32_t joint);
 /* Make a run of frames continuous, joint by joint, and turn the whole run to the side of mean[4 * joint] (parts x, y, z, w;
  * zero at first), to which it is then added. */
 void ff_pose_align(const ff_pose_store *store, uint32_t first, uint32_t count, uint32_t joints, double *mean);
