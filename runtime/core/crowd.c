@@ -283,7 +283,7 @@ static uint32_t take_slot(ff_crowd *crowd)
 
 static void free_slot(ff_crowd *crowd, uint32_t slot)
 {
-    if (crowd->steppers) crowd->steppers[slot].moves = FF_PLANNER_CROWD;
+    if (crowd->steppers) ff_stepper_forget(crowd, slot, FF_PLANNER_CROWD);
     crowd->alive[slot] = 0;
     --crowd->agent_count;
     crowd->next_free[slot] = crowd->free_first;
@@ -336,8 +336,7 @@ ff_status ff_crowd_put(ff_crowd *crowd, const ff_agent_def *def, uint32_t spawne
         place_body(crowd, slot, def->position, ff_atan2(way.b, way.a));
     if (crowd->steppers) {
         ff_planner planner = def->planner ? def->planner : crowd->def.planner;
-        memset(&crowd->steppers[slot], 0, sizeof crowd->steppers[slot]);
-        crowd->steppers[slot].moves = crowd->steppers[slot].wanted = FF_PLANNER_VELOCITY;
+        ff_stepper_forget(crowd, slot, FF_PLANNER_VELOCITY);
         if (planner == FF_PLANNER_FOOTSTEPS) ff_stepper_begin(crowd, slot, crowd->gaits[slot].idle_time);
     }
     ++crowd->added;

@@ -202,6 +202,7 @@ static void leave(ff_crowd *crowd, uint32_t slot, double time)
     crowd->minds[slot] = mind;
     s->moves = FF_PLANNER_VELOCITY;
     s->retry = 0.0;
+    crowd->footsteps->bounds[slot] = FF_BOUNDS_NONE;
 }
 
 void ff_footsteps_change(ff_crowd *crowd)

@@ -97,8 +97,5 @@ const char *ff_crowd_check_stepper(const ff_crowd *crowd, const void *element, s
     if (!track_fits(&s->track)) return "a track leaves the plane";
     *byte = offsetof(ff_stepper, play);
     if (!play_fits(crowd, &s->play)) return "what is played does not hold together";
-    return ff_crowd_doubles_fit(s, offsetof(ff_stepper, low), offsetof(ff_stepper, target), -LARGEST, LARGEST,
-                                byte)
-               ? NULL
-               : "the bounds of a track are too large";
+    return NULL;
 }

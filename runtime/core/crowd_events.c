@@ -29,11 +29,6 @@ static void pass_waypoints(const ff_crowd *crowd, uint32_t slot, ff_stepper *s)
                                         s->waypoint_next, here, WAYPOINT_WIDTH);
 }
 
-bool ff_bounds_meet(const ff_stepper *s, ff_vec2 low, ff_vec2 high)
-{
-    return s->low.a <= high.a && low.a <= s->high.a && s->low.b <= high.b && low.b <= s->high.b;
-}
-
 /* A plan that came into force in the last step crosses this one. In the planner's own formulation that happens only where
  * somebody had to break off a step. */
 static bool crossed(const ff_crowd *crowd, uint32_t slot, double time)
@@ -42,8 +37,8 @@ static bool crossed(const ff_crowd *crowd, uint32_t slot, double time)
     const ff_stepper *s = &crowd->steppers[slot];
     for (uint32_t i = 0; i < f->changed_count; ++i) {
         const ff_stepper *other = &crowd->steppers[f->changed[i]];
-        if (f->changed[i] == slot || !ff_is_stepper(crowd, f->changed[i])) continue;
-        if (ff_bounds_meet(s, other->low, other->high) &&
+        if (f->changed[i] == slot) continue;
+        if (ff_bounds_meet(&f->bounds[slot], &f->bounds[f->changed[i]]) &&
             ff_track_conflict(&s->track, &other->track, time, 0.0, NULL))
             return true;
     }

@@ -72,11 +72,14 @@ ff_status ff_footsteps_create(ff_crowd *crowd, ff_error *error)
     if (status == FF_OK) status = ff_solids_reserve(def->max_walls + def->max_obstacles, &f->solids, error);
     if (status != FF_OK) return status;
     f->jobs = ff_calloc(f->job_max, sizeof *f->jobs);
+    f->bounds = ff_calloc(def->max_agents, sizeof *f->bounds);
     f->order = ff_calloc(f->job_max, sizeof *f->order);
     f->changed = ff_calloc((size_t)f->job_max + def->max_agents, sizeof *f->changed);
     f->movers = ff_calloc((size_t)def->max_obstacles + 1, sizeof *f->movers);
-    if (!f->jobs || !f->order || !f->changed || !f->movers || !take_lanes(f, def, error))
+    if (!f->jobs || !f->order || !f->bounds || !f->changed || !f->movers || !take_lanes(f, def, error))
         return ff_fail(error, FF_ERR_NO_MEMORY, "the footsteps of %u agents", def->max_agents);
+    for (uint32_t slot = 0; slot < def->max_agents; ++slot)
+        f->bounds[slot] = FF_BOUNDS_NONE;
     return FF_OK;
 }
 
@@ -91,6 +94,7 @@ void ff_footsteps_destroy(ff_footsteps *f)
     }
     free(f->jobs);
     free(f->order);
+    free(f->bounds);
     free(f->changed);
     free(f->movers);
     ff_solids_destroy(f->solids);
@@ -122,16 +126,15 @@ ff_play_order ff_order_of(const ff_footsteps *f, const ff_plan_step *step)
 
 static void show_root(ff_crowd *crowd, uint32_t slot, double time)
 {
-    ff_play_targets at;
-    ff_play_targets_at(crowd->footsteps->play, &crowd->steppers[slot].play, time, &at);
-    crowd->bodies[slot].position = at.root;
-    crowd->bodies[slot].heading = ff_wrap(at.heading);
+    ff_body *body = &crowd->bodies[slot];
+    ff_play_root(crowd->footsteps->play, &crowd->steppers[slot].play, time, &body->position, &body->heading);
+    body->heading = ff_wrap(body->heading);
 }
 
 void ff_stepper_begin(ff_crowd *crowd, uint32_t slot, double idle_time)
 {
     ff_stepper *s = &crowd->steppers[slot];
-    const ff_footsteps *f = crowd->footsteps;
+    ff_footsteps *f = crowd->footsteps;
     double time = ff_crowd_time(crowd);
     const ff_body *body = &crowd->bodies[slot];
     memset(s, 0, sizeof *s);
@@ -140,7 +143,7 @@ void ff_stepper_begin(ff_crowd *crowd, uint32_t slot, double idle_time)
     ff_play_order stand = ff_order_of(f, &s->plan.steps[0]);
     ff_play_init(f->play, &s->play, &stand, time, idle_time);
     ff_plan_track(f->actions, &s->plan, time, &s->track);
-    ff_track_bounds(&s->track, &s->low, &s->high);
+    f->bounds[slot] = ff_track_bounds(&s->track);
     s->target = body->position;
     s->created = s->asked = time;
     show_root(crowd, slot, time);
@@ -160,8 +163,7 @@ void ff_stepper_adopt(ff_crowd *crowd, uint32_t slot, const ff_plan_job *job, do
     ff_stepper *s = &crowd->steppers[slot];
     s->plan = job->plan;
     s->track = job->track;
-    s->low = job->low;
-    s->high = job->high;
+    crowd->footsteps->bounds[slot] = job->bounds;
     s->target = job->target;
     s->created = time;
     s->pending = s->at = s->consumed = 0;
@@ -171,11 +173,22 @@ void ff_stepper_adopt(ff_crowd *crowd, uint32_t slot, const ff_plan_job *job, do
     ff_play_cut(crowd->footsteps->play, &s->play, &order, time);
 }
 
+void ff_stepper_forget(ff_crowd *crowd, uint32_t slot, ff_planner moves)
+{
+    memset(&crowd->steppers[slot], 0, sizeof crowd->steppers[slot]);
+    crowd->steppers[slot].moves = crowd->steppers[slot].wanted = moves;
+    crowd->footsteps->bounds[slot] = FF_BOUNDS_NONE;
+}
+
 void ff_footsteps_restore(ff_crowd *crowd)
 {
     ff_footsteps *f = crowd->footsteps;
-    for (uint32_t slot = 0; slot < crowd->slot_count && f; ++slot)
-        if (crowd->alive[slot] && crowd->steppers[slot].changed) f->changed[f->changed_count++] = slot;
+    for (uint32_t slot = 0; slot < crowd->slot_count && f; ++slot) {
+        f->bounds[slot] = FF_BOUNDS_NONE;
+        if (!crowd->alive[slot]) continue;
+        if (ff_is_stepper(crowd, slot)) f->bounds[slot] = ff_track_bounds(&crowd->steppers[slot].track);
+        if (crowd->steppers[slot].changed) f->changed[f->changed_count++] = slot;
+    }
 }
 
 ff_vec2 ff_stepper_target(const ff_crowd *crowd, uint32_t slot)

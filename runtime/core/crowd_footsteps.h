@@ -20,13 +20,14 @@
 #include "runtime/core/plan.h"
 #include "runtime/core/play.h"
 
+#include <stdatomic.h>
+
 /* Plain data, no padding: hashed as bytes. */
 typedef struct ff_stepper {
     ff_plan plan;   /* in force */
     ff_track track; /* of it */
     ff_play play;
-    ff_vec2 low, high; /* m: all of the track lies between */
-    ff_vec2 target;    /* m, what the plan was made for */
+    ff_vec2 target; /* m, what the plan was made for */
     ff_vec2 waypoint[FF_WAYPOINTS_MAX];
     double created;   /* s: when it was put in force */
     double retry;     /* s: before that nothing is searched for */
@@ -43,11 +44,17 @@ typedef struct ff_stepper {
     ff_plan_counts counts;
 } ff_stepper;
 
+/* Where a track is at all times: nowhere for those who move by velocity. Kept apart from all else, as everybody's is looked
+ * at whenever somebody plans. */
+typedef struct ff_bounds {
+    ff_vec2 low, high; /* m */
+} ff_bounds;
+
 /* A search of this step. */
 typedef struct ff_plan_job {
     ff_plan plan;
     ff_track track;
-    ff_vec2 low, high;
+    ff_bounds bounds;
     ff_vec2 target;
     ff_plan_counts counts; /* what the search adds */
     uint32_t slot;
@@ -88,7 +95,9 @@ typedef struct ff_footsteps {
     ff_plan_lane lane[FF_PLAN_LANES];
     ff_plan_job *jobs; /* [job_max] */
     uint32_t job_max, job_count;
-    uint32_t *order; /* [job_max] of slots */
+    uint32_t *order;   /* [job_max] of slots */
+    ff_bounds *bounds; /* [max_agents], by slot */
+    atomic_uint next_job;
     uint32_t
         *changed; /* slots whose plans came into force in the last step, or that began with footsteps since */
     uint32_t changed_count;
@@ -110,6 +119,9 @@ bool ff_is_stepper(const struct ff_crowd *crowd, uint32_t slot);
 /* Stand at the body's place from now on, idle_time into the idle motion, and plan from there. */
 void ff_stepper_begin(struct ff_crowd *crowd, uint32_t slot, double idle_time);
 
+/* No plan, no waypoints, nothing remembered: moves by velocity, or (FF_PLANNER_CROWD) is no more. */
+void ff_stepper_forget(struct ff_crowd *crowd, uint32_t slot, ff_planner moves);
+
 /* Whom the others look at, after loading. */
 void ff_footsteps_restore(struct ff_crowd *crowd);
 
@@ -120,7 +132,7 @@ void ff_stepper_tell(struct ff_crowd *crowd, uint32_t slot);
 double ff_crowd_time(const struct ff_crowd *crowd);
 void ff_footsteps_watch(struct ff_crowd *crowd,
                         uint32_t index);                       /* one agent's events; index into grid.seen */
-double ff_footsteps_plan(struct ff_crowd *crowd); /* everybody's plans; when it was done */
+double ff_footsteps_plan(struct ff_crowd *crowd);              /* everybody's plans; when it was done */
 void ff_footsteps_play(struct ff_crowd *crowd, uint32_t slot); /* one agent, to the end of the step */
 
 /* What ff_crowd_agent_state tells of one. */
@@ -134,7 +146,6 @@ ff_vec2 ff_stepper_target(const struct ff_crowd *crowd, uint32_t slot);
 /* It stands within the tolerance of its goal. */
 bool ff_stepper_arrived(const struct ff_crowd *crowd, uint32_t slot);
 ff_play_order ff_order_of(const ff_footsteps *footsteps, const ff_plan_step *step);
-bool ff_bounds_meet(const ff_stepper *stepper, ff_vec2 low, ff_vec2 high);
 
 /* A job's plan is free of the one that an agent has in force. */
 bool ff_job_free(const struct ff_crowd *crowd, const ff_plan_job *job, uint32_t slot, double time);
@@ -143,8 +154,12 @@ bool ff_job_free(const struct ff_crowd *crowd, const ff_plan_job *job, uint32_t 
 bool ff_track_meets(const ff_track *track, double from, double seconds, const ff_shape *shape,
                     ff_vec2 velocity, double margin, double *when);
 
-/* Bounds of a track. */
-void ff_track_bounds(const ff_track *track, ff_vec2 *low, ff_vec2 *high);
+ff_bounds ff_track_bounds(const ff_track *track);
+static inline bool ff_bounds_meet(const ff_bounds *p, const ff_bounds *q)
+{
+    return p->low.a <= q->high.a && q->low.a <= p->high.a && p->low.b <= q->high.b && q->low.b <= p->high.b;
+}
+#define FF_BOUNDS_NONE ((ff_bounds){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}})
 
 /* crowd_react.c: break off the step that is being done for one that is free of what is in the way. False: none is. */
 bool ff_stepper_react(const struct ff_crowd *crowd, uint32_t slot, const ff_plan_world *world, double time,

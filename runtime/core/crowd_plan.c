@@ -80,11 +80,11 @@ static void choose_jobs(ff_crowd *crowd, double time)
 
 static void see_steppers(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world)
 {
+    const ff_footsteps *f = crowd->footsteps;
     ff_vec2 here = crowd->bodies[slot].position, reach = ff_v2(VIEW, VIEW);
-    ff_vec2 low = ff_sub2(here, reach), high = ff_add2(here, reach);
+    ff_bounds view = {ff_sub2(here, reach), ff_add2(here, reach)};
     for (uint32_t i = 0; i < crowd->slot_count; ++i)
-        if (i != slot && crowd->alive[i] && ff_is_stepper(crowd, i) &&
-            ff_bounds_meet(&crowd->steppers[i], low, high))
+        if (i != slot && ff_bounds_meet(&f->bounds[i], &view))
             lane->tracks[world->track_count++] = &crowd->steppers[i].track;
     world->tracks = lane->tracks;
 }
@@ -136,8 +136,8 @@ static ff_plan_world world_of(const ff_crowd *crowd, uint32_t slot, ff_plan_lane
 
 bool ff_job_free(const ff_crowd *crowd, const ff_plan_job *job, uint32_t slot, double time)
 {
+    if (slot == job->slot || !ff_bounds_meet(&crowd->footsteps->bounds[slot], &job->bounds)) return true;
     const ff_stepper *other = &crowd->steppers[slot], *own = &crowd->steppers[job->slot];
-    if (slot == job->slot || !ff_bounds_meet(other, job->low, job->high)) return true;
     if (!ff_track_conflict(&job->track, &other->track, time, 0.0, NULL)) return true;
     /* Those who are in each other's way already may do what they can. */
     return ff_is_stepper(crowd, job->slot) && ff_track_conflict(&own->track, &other->track, time, 0.0, NULL);
@@ -147,10 +147,10 @@ bool ff_job_free(const ff_crowd *crowd, const ff_plan_job *job, uint32_t slot, d
 static void finish_job(const ff_crowd *crowd, ff_plan_job *job, double time)
 {
     ff_plan_track(crowd->footsteps->actions, &job->plan, time, &job->track);
-    ff_track_bounds(&job->track, &job->low, &job->high);
+    job->bounds = ff_track_bounds(&job->track);
     job->good = 1;
     for (uint32_t i = 0; i < crowd->slot_count && job->good && !crowd->def.footsteps.paper; ++i)
-        if (crowd->alive[i] && ff_is_stepper(crowd, i)) job->good = ff_job_free(crowd, job, i, time);
+        job->good = ff_job_free(crowd, job, i, time);
     if (!job->good) ++job->counts.conflicting;
 }
 
@@ -199,11 +199,12 @@ typedef struct lane_work {
     ff_crowd *crowd;
 } lane_work;
 
+/* Takes the next search as long as there are any: which thread does which has no influence on what comes out. */
 static void run_lane(void *context, uint32_t index)
 {
     ff_crowd *crowd = ((lane_work *)context)->crowd;
     ff_footsteps *f = crowd->footsteps;
-    for (uint32_t i = index; i < f->job_count; i += f->lane_count)
+    for (uint32_t i; (i = atomic_fetch_add(&f->next_job, 1u)) < f->job_count;)
         search(crowd, &f->jobs[i], &f->lane[index]);
 }
 
@@ -260,6 +261,7 @@ double ff_footsteps_plan(ff_crowd *crowd)
     f->changed_count = 0;
     choose_jobs(crowd, time);
     lane_work work = {crowd};
+    atomic_store(&f->next_job, 0u);
     if (crowd->def.tasks)
         crowd->def.tasks(crowd->def.task_pool, f->lane_count, run_lane, &work);
     else

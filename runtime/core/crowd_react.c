@@ -141,7 +141,7 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
         try_step(&w, &step, from, true);
     }
     if (!better(&w.outcome, &old)) return false;
-    ff_track_bounds(&job->track, &job->low, &job->high);
+    job->bounds = ff_track_bounds(&job->track);
     job->target = ff_stepper_target(crowd, slot);
     job->good = 1;
     job->counts.reactions = job->kind == FF_JOB_REACT;

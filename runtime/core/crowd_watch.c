@@ -21,15 +21,13 @@ bool ff_track_meets(const ff_track *track, double from, double seconds, const ff
     return false;
 }
 
-void ff_track_bounds(const ff_track *track, ff_vec2 *low, ff_vec2 *high)
+ff_bounds ff_track_bounds(const ff_track *track)
 {
-    *low = ff_v2(INFINITY, INFINITY);
-    *high = ff_v2(-INFINITY, -INFINITY);
+    ff_bounds all = FF_BOUNDS_NONE;
     for (uint32_t c = 0; c * FF_TRACK_CHUNK < track->count; ++c) {
         const ff_track_room *room = &track->room[c];
-        *low = ff_v2(ff_min(low->a, (double)room->low_a), ff_min(low->b, (double)room->low_b));
-        *high = ff_v2(ff_max(high->a, (double)room->high_a), ff_max(high->b, (double)room->high_b));
+        all.low = ff_v2(ff_min(all.low.a, (double)room->low_a), ff_min(all.low.b, (double)room->low_b));
+        all.high = ff_v2(ff_max(all.high.a, (double)room->high_a), ff_max(all.high.b, (double)room->high_b));
     }
-    *low = ff_add2(*low, track->origin);
-    *high = ff_add2(*high, track->origin);
+    return (ff_bounds){ff_add2(all.low, track->origin), ff_add2(all.high, track->origin)};
 }

@@ -84,6 +84,9 @@ void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *ord
 /* Time has come to this: entries that are over by then are left, each join at its own moment. Never backwards. */
 void ff_play_advance(const ff_play_set *set, ff_play *play, double time);
 
+/* Where the root is and how it is turned, at a time within the present entry; much cheaper than all targets. */
+void ff_play_root(const ff_play_set *set, const ff_play *play, double time, ff_vec2 *root, double *heading);
+
 /* At a time within the present entry. */
 void ff_play_targets_at(const ff_play_set *set, const ff_play *play, double time, ff_play_targets *out);
 

@@ -234,6 +234,24 @@ static void lower_hips(const ff_body_frame *body, ff_play_targets *at)
     at->hips.y -= ff_min(drop, MOST_DROP);
 }
 
+void ff_play_root(const ff_play_set *set, const ff_play *play, double time, ff_vec2 *root, double *heading)
+{
+    const ff_play_step *step = &play->step[0];
+    *root = ff_v2(step->a, step->b);
+    *heading = step->heading;
+    if (step->action != FF_PLAY_STAND) {
+        ff_root_frame local = ff_play_root_at(set, step->action, local_time(step, time));
+        *root = place(step, ff_fwd2(step->heading), local.position);
+        *heading += local.heading;
+    }
+    double age = time - play->joined;
+    if (!ff_pose_offset_active(&play->offset) || !(age < FF_POSE_OFFSET_TIME)) return;
+    ff_pose_offset offset = play->offset;
+    offset.age = age;
+    ff_vec3 hips = ff_pose_offset_hips(&offset);
+    *root = ff_add2(*root, ff_from_frame2(ff_fwd2(*heading), ff_v2(hips.x, hips.y)));
+}
+
 static void pose_legs(const ff_body_frame *body, const ff_play_targets *at, ff_quat *rotations)
 {
     ff_legs legs;

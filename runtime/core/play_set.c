@@ -37,6 +37,16 @@ void ff_play_sample_at(const ff_play_set *set, uint32_t action, double time, ff_
     sample_from(set, &set->actions[action], time, out);
 }
 
+ff_root_frame ff_play_root_at(const ff_play_set *set, uint32_t index, double time)
+{
+    const ff_play_action *action = &set->actions[index];
+    ff_root_frame root;
+    ff_pack_sample(set->pack, action->stream, action->start + time,
+                   action->mirrored ? (uint32_t)FF_SAMPLE_MIRRORED : 0u, &root, NULL, NULL, NULL);
+    return (ff_root_frame){ff_to_frame2(ff_fwd2(action->heading), ff_sub2(root.position, action->origin)),
+                           root.heading - action->heading};
+}
+
 /* ----------------------------------------------------------------------------------------------- stances */
 
 /* A foot at one moment. */

@@ -52,6 +52,9 @@ typedef struct ff_play_sample {
 
 void ff_play_sample_at(const ff_play_set *set, uint32_t action, double time, ff_play_sample *out);
 
+/* The root alone, seen from S0. */
+ff_root_frame ff_play_root_at(const ff_play_set *set, uint32_t action, double time);
+
 /* Which way a foot points. */
 double ff_play_foot_yaw(ff_quat rotation);
 
