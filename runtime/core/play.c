@@ -3,25 +3,32 @@
 
 #include <string.h>
 
-static ff_play_step stand_at(const ff_play_set *set, const ff_play_foot feet[2], double heading, double start)
+/* Standing is where the action before has left the root, which the plan relies on: somebody who was captured with the weight on
+ * one foot stands so. */
+static ff_play_step stand_at(const ff_root_frame *root, const ff_play_foot feet[2], double start)
 {
     ff_play_step step = {.start = start,
                          .end = FF_PLAY_FOREVER,
                          .entered = start,
                          .pace = 1.0,
-                         .heading = heading,
+                         .a = root->position.a,
+                         .b = root->position.b,
+                         .heading = root->heading,
                          .foot = {feet[0], feet[1]},
                          .action = FF_PLAY_STAND};
-    ff_vec2 ahead = ff_fwd2(heading), middle = ff_v2(0.0, 0.0);
-    for (int foot = 0; foot < 2; ++foot) {
-        const double *neutral = set->space->neutral[foot];
-        ff_vec2 under = ff_from_frame2(ahead, ff_v2(neutral[0], neutral[1]));
-        middle = ff_madd2(middle, ff_sub2(ff_v2(feet[foot].a, feet[foot].b), under), 0.5);
-        step.foot[foot].planted = 1;
-    }
-    step.a = middle.a;
-    step.b = middle.b;
+    step.foot[0].planted = step.foot[1].planted = 1;
     return step;
+}
+
+/* The root as an entry ends, without what fades out. */
+static ff_root_frame root_after(const ff_play_set *set, const ff_play_step *step)
+{
+    ff_root_frame root = {{step->a, step->b}, step->heading};
+    if (step->action == FF_PLAY_STAND) return root;
+    ff_root_frame local = ff_play_root_at(set, step->action, set->actions[step->action].duration);
+    ff_vec2 moved = ff_from_frame2(ff_fwd2(step->heading), local.position);
+    return (ff_root_frame){ff_add2(root.position, moved),
+                           step->heading + (double)set->pack->actions[step->action].theta};
 }
 
 static ff_play_step action_at(const ff_play_set *set, const ff_play_order *order, const ff_play_foot feet[2])
@@ -37,28 +44,13 @@ static ff_play_step action_at(const ff_play_set *set, const ff_play_order *order
                           .action = order->action};
 }
 
-/* An action that does nothing but stand is played as standing, whose motion goes on however many of them follow. */
-static ff_play_step step_of(const ff_play_set *set, const ff_play_order *order, const ff_play_foot feet[2])
-{
-    ff_play_step step = action_at(set, order, feet);
-    if (!set->actions[order->action].idle) return step;
-    ff_play_step stand = stand_at(set, feet, order->heading, order->start);
-    stand.end = step.end;
-    return stand;
-}
-
-static double heading_after(const ff_play_set *set, const ff_play_step *step)
-{
-    if (step->action == FF_PLAY_STAND) return step->heading;
-    return step->heading + (double)set->pack->actions[step->action].theta;
-}
-
 static void stand_next(const ff_play_set *set, ff_play *play)
 {
     const ff_play_step *now = &play->step[0];
     ff_play_foot feet[2];
     ff_play_feet_after(set, now, feet);
-    play->step[1] = stand_at(set, feet, heading_after(set, now), now->end);
+    ff_root_frame root = root_after(set, now);
+    play->step[1] = stand_at(&root, feet, now->end);
 }
 
 void ff_play_init(const ff_play_set *set, ff_play *play, const ff_play_order *last, double time,
@@ -83,10 +75,11 @@ void ff_play_next(const ff_play_set *set, ff_play *play, const ff_play_order *or
     else if (stands)
         now->end = FF_PLAY_FOREVER;
     memset(&play->step[1], 0, sizeof play->step[1]);
-    if (order && order->action != FF_PLAY_STAND) {
+    /* An action that does nothing but stand is played as standing, whose motion goes on however many of them follow. */
+    if (order && order->action != FF_PLAY_STAND && !set->actions[order->action].idle) {
         ff_play_foot feet[2];
         ff_play_feet_after(set, now, feet);
-        play->step[1] = step_of(set, order, feet);
+        play->step[1] = action_at(set, order, feet);
     } else if (order || !stands) {
         stand_next(set, play);
     }
@@ -173,7 +166,7 @@ void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *ord
     ff_play_targets shown[2];
     for (int i = 0; i < 2; ++i)
         ff_play_targets_at(set, play, time + i * LATER, &shown[i]);
-    play->step[0] = step_of(set, order, play->step[0].foot);
+    play->step[0] = action_at(set, order, play->step[0].foot);
     play->step[0].entered = time;
     ff_play_next(set, play, NULL);
     ff_play_join(set, play, shown, LATER, time);
@@ -183,10 +176,11 @@ void ff_play_enter(const ff_play_set *set, ff_play *play, const ff_play_order *o
                    const ff_play_foot feet[2], const ff_play_targets shown[2], double later, double time,
                    double idle_time)
 {
+    ff_root_frame root = {shown[0].root, shown[0].heading};
     memset(play, 0, sizeof *play);
     play->idle_time = idle_time - time;
-    play->step[0] = order->action == FF_PLAY_STAND ? stand_at(set, feet, order->heading, time)
-                                                   : step_of(set, order, feet);
+    bool stands = order->action == FF_PLAY_STAND || set->actions[order->action].idle;
+    play->step[0] = stands ? stand_at(&root, feet, time) : action_at(set, order, feet);
     play->step[0].entered = time;
     ff_play_next(set, play, NULL);
     ff_play_join(set, play, shown, later, time);

@@ -72,7 +72,7 @@ void ff_play_init(const ff_play_set *set, ff_play *play, const ff_play_order *la
  * now on. Without an order, and after each one, the body stands. */
 void ff_play_next(const ff_play_set *set, ff_play *play, const ff_play_order *order);
 
-/* Begin with an order at time (FF_PLAY_STAND: facing its heading), coming from another motion: the feet are where they are, and what was shown, at time and
+/* Begin with an order at time coming from another motion: the feet are where they are, and what was shown, at time and
  * a little later, fades out. */
 void ff_play_enter(const ff_play_set *set, ff_play *play, const ff_play_order *order,
                    const ff_play_foot feet[2], const ff_play_targets shown[2], double later, double time,

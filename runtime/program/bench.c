@@ -18,6 +18,9 @@ static const ff_subcommand benches[] = {
     {"walk", "how people walk: planted feet, knees, joints, on courses of every kind", ff_bench_walk_main},
     {"hybrid", "an obstacle course by blending, semi-procedurally and by both (FbCrowd, section 7.1)",
      ff_bench_hybrid_main},
+    {"fig9", "frames per second of crowds on footsteps (footstep planning, Figure 9)", ff_bench_fig9_main},
+    {"fig10", "how bodies get past each other on footsteps (footstep planning, Figures 1 and 10)",
+     ff_bench_fig10_main},
     {0},
 };
 

@@ -1,0 +1,227 @@
+/* bench_fig10.c - `footfall-crowd bench fig10`: how bodies get past each other on footsteps, with little time to plan (footstep
+ * planning paper, Figures 1 and 10), on a circle and crossing at random; by our planner and by the paper's formulation. */
+#include "runtime/core/base/file.h"
+#include "runtime/export/text.h"
+#include "runtime/program/bench.h"
+#include "runtime/program/bench_options.h"
+#include "runtime/program/footstep_trial.h"
+#include "runtime/tool/progress.h"
+
+#include <stdio.h>
+
+#define STEP (1.0 / 60.0)
+#define TINY_NODES 20
+#define NODES_MOST 20000
+
+typedef struct contact_row {
+    const char *scene, *method;
+    ff_walk_scene kind;
+    uint32_t agents, nodes; /* per plan; under a budget of time as many as it lets one have */
+    double budget_ms, seconds, density;
+    int64_t share; /* of the seeds: one in so many is run */
+    /* over all runs */
+    int64_t runs, touched;
+    double overlap, agent_seconds, deepest, speed, arrived, last;
+} contact_row;
+
+static const contact_row rows[] = {
+    {"four", "ours", FF_WALK_FOUR, 4, NODES_MOST, 1.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"four", "ours", FF_WALK_FOUR, 4, 200, 0.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"four", "paper", FF_WALK_FOUR, 4, NODES_MOST, 1.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"four", "paper", FF_WALK_FOUR, 4, TINY_NODES, 0.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"circle", "ours", FF_WALK_CIRCLE, 40, 200, 0.0, 40.0, 0.0, 20, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"circle", "paper", FF_WALK_CIRCLE, 40, 200, 0.0, 40.0, 0.0, 20, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"crossing", "ours", FF_WALK_CROSSING, 200, 200, 0.0, 20.0, 0.1, 20, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"crossing", "paper", FF_WALK_CROSSING, 200, 200, 0.0, 20.0, 0.1, 20, 0, 0, 0, 0, 0, 0, 0, 0},
+};
+enum { ROWS = sizeof rows / sizeof rows[0], SHOTS = 3 };
+
+typedef struct contacts {
+    const ff_bench_options *options;
+    const ff_pack *pack;
+    const ff_figure *figure;
+    contact_row row[ROWS];
+} contacts;
+
+static ff_walk_trial trial_of(const contacts *all, const contact_row *row, int64_t seed)
+{
+    ff_walk_trial trial = {.scene = row->kind,
+                           .agents = row->agents,
+                           .threads = (uint32_t)all->options->threads,
+                           .density = row->density,
+                           .seconds = row->seconds,
+                           .step = STEP,
+                           .seed = (uint64_t)seed,
+                           .planner = FF_PLANNER_FOOTSTEPS,
+                           .footsteps = ff_crowd_def_default().footsteps};
+    trial.footsteps.paper = row->method[0] == 'p';
+    trial.footsteps.nodes = row->nodes;
+    trial.footsteps.seconds = 1e-3 * row->budget_ms;
+    return trial;
+}
+
+static int64_t runs_of(const contacts *all, const contact_row *row)
+{
+    int64_t runs = all->options->seeds / row->share;
+    return runs > 0 ? runs : 1;
+}
+
+static ff_status run_row(contacts *all, contact_row *row, ff_progress *progress, ff_error *error)
+{
+    ff_status status = FF_OK;
+    for (int64_t i = 0; i < runs_of(all, row) && status == FF_OK; ++i) {
+        ff_walk_trial trial = trial_of(all, row, all->options->first_seed + i);
+        ff_walk_measures m;
+        status = ff_walk_trial_run(all->pack, all->figure, &trial, &m, error);
+        if (status != FF_OK) break;
+        ++row->runs;
+        row->touched += m.deepest > 0.0;
+        row->overlap += m.overlap * m.agent_seconds;
+        row->agent_seconds += m.agent_seconds;
+        row->deepest = m.deepest > row->deepest ? m.deepest : row->deepest;
+        row->speed += m.speed_to_goal;
+        row->arrived += m.arrived;
+        row->last += m.last_arrival;
+        ff_progress_step(progress, row->scene);
+    }
+    if (row->runs == 0) return status;
+    row->overlap /= row->agent_seconds;
+    row->speed /= (double)row->runs;
+    row->last /= (double)row->runs;
+    return status;
+}
+
+/* Pictures of four who cross, by either method with hardly any time. */
+static ff_status draw_four(contacts *all, const contact_row *row, const char *path, ff_error *error)
+{
+    static const char *const when[SHOTS] = {"setting out", "crossing", "past each other"};
+    ff_plan_scene shots[SHOTS] = {{0}};
+    char title[64];
+    snprintf(title, sizeof title, "Four who cross, %s",
+             row->method[0] == 'p' ? "as in the paper, 20 nodes" : "ours, 1 ms");
+    for (int i = 0; i < SHOTS; ++i) {
+        shots[i].title = title;
+        shots[i].subtitle = when[i];
+    }
+    ff_walk_trial trial = trial_of(all, row, all->options->first_seed);
+    trial.seconds = 8.0;
+    trial.shots = shots;
+    trial.shot_count = SHOTS;
+    ff_walk_measures measures;
+    ff_status status = ff_walk_trial_run(all->pack, all->figure, &trial, &measures, error);
+    if (status == FF_OK) status = ff_plan_picture_write(path, shots, SHOTS, error);
+    for (int i = 0; i < SHOTS; ++i)
+        ff_plan_scene_free(&shots[i]);
+    return status;
+}
+
+static void print_rows(const contacts *all)
+{
+    printf("%-9s %-6s %6s %10s %5s | %8s %9s %8s | %7s %9s %6s\n", "scene", "method", "agents", "budget",
+           "runs", "touched", "overlap", "deepest", "speed", "arrived", "last");
+    printf("%-9s %-6s %6s %10s %5s | %8s %9s %8s | %7s %9s %6s\n", "", "", "", "", "", "%", "/100 s", "cm",
+           "m/s", "", "s");
+    for (int i = 0; i < ROWS; ++i) {
+        const contact_row *row = &all->row[i];
+        char budget[24];
+        if (row->budget_ms > 0.0)
+            snprintf(budget, sizeof budget, "%.0f ms", row->budget_ms);
+        else
+            snprintf(budget, sizeof budget, "%u nodes", row->nodes);
+        printf("%-9s %-6s %6u %10s %5lld | %8.2f %9.4f %8.1f | %7.2f %4.0f/%-4.0f %6.1f\n", row->scene,
+               row->method, row->agents, budget, (long long)row->runs,
+               100.0 * (double)row->touched / (double)row->runs, row->overlap, 100.0 * row->deepest,
+               row->speed, row->arrived, (double)row->agents * (double)row->runs, row->last);
+    }
+}
+
+static json_t *rows_json(const contacts *all)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < ROWS; ++i) {
+        const contact_row *row = &all->row[i];
+        json_array_append_new(list,
+                              json_pack("{s:s,s:s,s:I,s:f,s:I,s:I,s:I,s:f,s:f,s:f,s:f,s:f}", "scene",
+                                        row->scene, "method", row->method, "agents", (json_int_t)row->agents,
+                                        "budget_ms", row->budget_ms, "nodes", (json_int_t)row->nodes, "runs",
+                                        (json_int_t)row->runs, "touched_runs", (json_int_t)row->touched,
+                                        "overlap", row->overlap, "deepest_m", row->deepest, "speed_to_goal",
+                                        row->speed, "arrived", row->arrived, "last_arrival_s", row->last));
+    }
+    return json_pack("{s:s,s:I,s:I,s:o}", "bench", "fig10", "seeds", (json_int_t)all->options->seeds,
+                     "first_seed", (json_int_t)all->options->first_seed, "rows", list);
+}
+
+static ff_status write_csv(const contacts *all, const char *path, ff_error *error)
+{
+    ff_text text = {0};
+    ff_text_add(
+        &text,
+        "scene,method,agents,budget_ms,nodes,runs,touched_runs,overlap,deepest_m,speed_to_goal,arrived,"
+        "last_arrival_s\n");
+    for (int i = 0; i < ROWS; ++i) {
+        const contact_row *row = &all->row[i];
+        ff_text_add(&text, "%s,%s,%u,%.1f,%u,%lld,%lld,%.5f,%.4f,%.3f,%.0f,%.2f\n", row->scene, row->method,
+                    row->agents, row->budget_ms, row->nodes, (long long)row->runs, (long long)row->touched,
+                    row->overlap, row->deepest, row->speed, row->arrived, row->last);
+    }
+    return ff_text_write(&text, path, error);
+}
+
+static ff_status write_files(contacts *all, ff_error *error)
+{
+    const ff_bench_options *options = all->options;
+    char path[4096];
+    ff_status status = FF_OK;
+    if (options->json) status = ff_bench_write_json(options->json, rows_json(all), error);
+    if (status != FF_OK || !options->out) return status;
+    snprintf(path, sizeof path, "%s/fig10.csv", options->out);
+    status = write_csv(all, path, error);
+    snprintf(path, sizeof path, "%s/fig10.json", options->out);
+    if (status == FF_OK) status = ff_bench_write_json(path, rows_json(all), error);
+    snprintf(path, sizeof path, "%s/fig10-ours.png", options->out);
+    if (status == FF_OK) status = draw_four(all, &rows[0], path, error);
+    snprintf(path, sizeof path, "%s/fig10-paper.png", options->out);
+    return status == FF_OK ? draw_four(all, &rows[3], path, error) : status;
+}
+
+static int run_fig10(const ff_bench_options *options)
+{
+    ff_error error = {0};
+    ff_pack *pack = NULL;
+    ff_figure figure;
+    contacts all = {.options = options, .figure = &figure};
+    uint64_t runs = 0;
+    ff_status status = ff_pack_open(options->pack, &pack, &error);
+    all.pack = pack;
+    if (status == FF_OK) status = ff_figure_from_pack(pack, &figure, &error);
+    if (status == FF_OK && options->out) status = ff_folder_create(options->out, &error);
+    for (int i = 0; i < ROWS; ++i) {
+        all.row[i] = rows[i];
+        runs += (uint64_t)runs_of(&all, &rows[i]);
+    }
+    ff_progress *progress = ff_progress_start("walking", runs, options->quiet);
+    for (int i = 0; i < ROWS && status == FF_OK; ++i)
+        status = run_row(&all, &all.row[i], progress, &error);
+    ff_progress_end(progress);
+    if (status == FF_OK) {
+        print_rows(&all);
+        status = write_files(&all, &error);
+    }
+    ff_pack_close(pack);
+    return status == FF_OK ? FF_EXIT_OK : ff_command_fail(FF_BENCH_PROGRAM, &error);
+}
+
+int ff_bench_fig10_main(int argc, char **argv)
+{
+    ff_bench_options given = {.seeds = 100, .first_seed = 1, .threads = 1};
+    const ff_bench_command command = {
+        .name = "bench fig10",
+        .summary = "how bodies get past each other on footsteps",
+        .files = "where fig10.csv, fig10.json and pictures of four who cross go; made if missing",
+        .seeds = "runs of the four (default 100); of the larger scenes one for every 20",
+        .threads = "of each crowd (default 1)",
+        .own = NULL};
+    int status = ff_bench_parse(&command, argc, argv, &given);
+    return status >= 0 ? status : run_fig10(&given);
+}

@@ -1,0 +1,44 @@
+/* footstep_trial.h - one crowd on footsteps, measured: how long its steps take, and how its bodies get past each other. */
+#ifndef FF_FOOTSTEP_TRIAL_H
+#define FF_FOOTSTEP_TRIAL_H
+
+#include "runtime/export/figure.h"
+#include "runtime/export/plan_picture.h"
+
+typedef enum ff_walk_scene {
+    FF_WALK_CROSSING, /* random places on a square, random goals, a new one when that is reached */
+    FF_WALK_CIRCLE,   /* to the opposite side of a circle of radius max(4, 0.16 N) m */
+    FF_WALK_FOUR,     /* four whose ways cross in the middle, a little off (Figures 1 and 10) */
+} ff_walk_scene;
+
+typedef struct ff_walk_trial {
+    ff_walk_scene scene;
+    uint32_t agents, threads;
+    double density; /* per m2, of a crossing */
+    double seconds, step;
+    uint64_t seed;
+    ff_planner planner;
+    ff_footsteps_def footsteps;
+    bool mixed; /* every other one by velocity */
+    /* or NULL: shots pictures, evenly in time, of at most shot_count moments */
+    ff_plan_scene *shots;
+    uint32_t shot_count;
+} ff_walk_trial;
+
+typedef struct ff_walk_measures {
+    double agent_seconds;
+    double fps_mean, frame_ms_p99, frame_ms_most; /* of a step with the poses of everybody */
+    double plan_ms_mean;                          /* per step */
+    double overlap;       /* pair-seconds of contact of the five cylinders per 100 agent-seconds */
+    double deepest;       /* m */
+    double speed_to_goal; /* m/s, mean over those who are not there yet */
+    double no_plan;       /* s, of all agents: without a valid plan */
+    double last_arrival, mean_arrival; /* s; of those who arrived */
+    uint32_t arrived;
+    ff_plan_counts counts; /* of all */
+} ff_walk_measures;
+
+ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const ff_walk_trial *trial,
+                            ff_walk_measures *out, ff_error *error);
+
+#endif
