@@ -16,6 +16,7 @@ int ff_bench_hybrid_main(int argc, char **argv);
 int ff_bench_walk_main(int argc, char **argv);
 int ff_bench_fig9_main(int argc, char **argv);
 int ff_bench_fig10_main(int argc, char **argv);
+int ff_bench_facts_main(int argc, char **argv);
 
 /* Write value to path and give it back to jansson; NULL means that memory ran out. */
 ff_status ff_bench_write_json(const char *path, json_t *value, ff_error *error);
