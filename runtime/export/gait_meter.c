@@ -7,7 +7,7 @@
 
 /* Thorax to head, slow walkers, 99th percentile of all (gait facts): people look about, and walkers made by formula do not. */
 #define HEAD_SPEED (91.0 * FF_DEG)
-#define STILL (60.0 * FF_DEG) /* rad/s: a joint that is never faster is not really moved in the database */
+#define STILL (30.0 * FF_DEG) /* rad/s: a joint that is never faster is not really moved in the database */
 #define MIDDLE_FROM 0.35      /* of the swing: mid swing */
 #define MIDDLE_TO 0.65
 

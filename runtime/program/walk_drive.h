@@ -20,6 +20,7 @@ typedef struct ff_course {
     double period;    /* s, of stops and waves, or between commands */
     uint32_t walkers; /* at least 1 */
     double side;      /* m, of the square that goals lie in */
+    bool runs;        /* some of it is run, which is shown but not held to the bars of walking */
 } ff_course;
 
 /* Walks and turns of every kind; *count of them. */

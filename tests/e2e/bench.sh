@@ -39,6 +39,24 @@ synthesis_measures_poses_with_simd_and_without() {
         [ "$(wc -l <"$work/synthesis/synthesis.csv")" -eq 5 ] && [ -s "$work/synthesis/synthesis.png" ] &&
         has "$work/synthesis.json" '"characters": 20' '"simd": true' '"simd": false' us_blend us_ik '"joints": 31'
 }
+walks_keep_their_bars() {
+    # Runs are shown, and not held to the bars of walking.
+    run 0 "$crowd" bench walk --pack "$builtin" --seconds 20 --check --json "$work/walk.json" && silent err || return 1
+    [ "$(grep -c '"broken"' "$work/walk.json")" -ge 30 ] && has "$work/out" "hasty commands" crowd "run 3.0" &&
+        has "$work/walk.json" '"synthesis": "blending"' skate_median_m knee_deg_per_s2 joint_ratio clear_m ankles_m
+}
+every_example_is_walked_and_filmed() {
+    run 0 "$crowd" bench walk --pack "$builtin" --examples --course walk-slow --seconds 6 --out "$work/films" || return 1
+    [ "$(ls "$work/films")" = walk-slow-12.png ] && has "$work/out" "walk-slow@12" &&
+        run 0 "$crowd" bench walk --pack "$builtin" --course "tight curve" --seconds 6 --synthesis hybrid &&
+        run 1 "$crowd" bench walk --pack "$builtin" --course nothing && says err "nothing" &&
+        run 2 "$crowd" bench walk && run 2 "$crowd" bench walk --pack "$builtin" --synthesis hybird && says err hybird
+}
+straight_walks_are_people_s() {
+    run 0 "$crowd" bench facts --pack "$builtin" --json "$work/facts.json" && silent err || return 1
+    ! grep -q '"holds": false' "$work/facts.json" && has "$work/out" cadence "knee most in swing" &&
+        run 2 "$crowd" bench facts && says err "--pack"
+}
 mistakes_leave_with_2_and_name_the_way_on() {
     run 2 "$crowd" bench && run 2 "$crowd" bench fig77 && says err "fig7" &&
         run 2 "$crowd" bench table1 && says err "--pack" && run 2 "$crowd" bench fig7 && says err "--pack" &&
@@ -50,5 +68,8 @@ test_that "fig7 writes its table, files and pictures" fig7_writes_table_files_an
 test_that "table1 compares the methods" table1_compares_the_methods
 test_that "fig6 shares out what whole people cost" fig6_shares_out_what_whole_people_cost
 test_that "synthesis measures poses with SIMD and without" synthesis_measures_poses_with_simd_and_without
+test_that "walks keep their bars" walks_keep_their_bars
+test_that "every example is walked and filmed" every_example_is_walked_and_filmed
+test_that "straight walks are people's" straight_walks_are_people_s
 test_that "mistakes leave with 2 and name the way on" mistakes_leave_with_2_and_name_the_way_on
 finish
