@@ -1,6 +1,6 @@
 #include "runtime/core/foot_lock.h"
 
-#define SLOPE_LIMIT 0.6      /* m/s, study section 4.2 */
+#define SLOPE_LIMIT 1.0      /* m/s, study section 4.2 */
 #define SET_OFF_TIME 0.15    /* s, in which a foot that stood at rest takes up the swing */
 #define STOOD_TEMPO 0.35     /* of the steps' clock: slower is a first step */
 #define PLAN_SPEED 2.5       /* m/s, how fast a footprint may move early in swing; none at the end */

@@ -7,11 +7,11 @@
 #include <string.h>
 
 #define RATE_SMOOTHING                                                                                       \
-    0.10                 /* s: the blend follows the root's rates with this lag, the feet take up the rest */
+    0.10                  /* s: the blend follows the root's rates with this lag, the feet take up the rest */
 #define HARDLY_MOVES 0.25 /* m/s, turning counted as in the blend space */
-#define STAND_TIME 0.35  /* s from the walking to the standing pose and back */
-#define SETTLED 0.6      /* of the way to the standing pose, from where on a step may begin */
-#define START_SPEED 0.12 /* m/s and rad/s above which a standing body begins to step ... */
+#define STAND_TIME 0.35   /* s from the walking to the standing pose and back */
+#define SETTLED 0.6       /* of the way to the standing pose, from where on a step may begin */
+#define START_SPEED 0.12  /* m/s and rad/s above which a standing body begins to step ... */
 #define START_TURN 0.35
 #define STOP_SPEED 0.08 /* ... and below both of which a stepping one comes to a stand */
 #define STOP_TURN 0.20
@@ -25,8 +25,10 @@
 #define STRETCH_TO 0.30   /* ... to the most, and the foot steps as soon as the other stands */
 #define MOST_TEMPO 1.5
 #define STRETCH_YAW (40.0 * FF_DEG)
-#define PACE_TIME 0.08  /* s, in which the clock of the steps takes up a new pace ... */
-#define FIRST_PACE 0.2  /* ... and what it begins with: a foot that has stood sets off slowly */
+#define PACE_TIME 0.08 /* s, in which the clock of the steps takes up a new pace ... */
+#define FIRST_PACE 0.2 /* ... and what it begins with: a foot that has stood sets off slowly */
+#define EARLY_LIFT                                                                                           \
+    0.6 /* u: how much of its stance a foot that is left behind may skip; more, and it would hang in the air */
 #define LEAST_SWING 0.3 /* u: a swing that would be shorter is left out */
 
 #define CLEAR_EASE 0.1 /* s after a switch, which itself must not move a foot */
@@ -188,7 +190,8 @@ static bool time_to_lift(const ff_foot_scene *scene, const ff_gait *gait, int fo
     ff_blend_lock(scene->space, &gait->blend, foot, &start, &length);
     double since = ff_phase_wrap(scene->phase - start);
     if (since >= length && FF_GAIT_KEYS - since > LEAST_SWING) return true;
-    return stretch(scene, gait, foot) >= 1.0 && since > 0.5 && FF_GAIT_KEYS - since > LEAST_SWING;
+    return stretch(scene, gait, foot) >= 1.0 && since > length - EARLY_LIFT &&
+           FF_GAIT_KEYS - since > LEAST_SWING;
 }
 
 /* What the last switch has left of a difference. The place of a foot that stands is its lock's alone. */

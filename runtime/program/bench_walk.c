@@ -20,6 +20,7 @@
 #define PROGRAM "footfall-crowd"
 #define SKATE_MEDIAN 0.001 /* m per plant */
 #define SKATE_P95 0.003
+#define RARE 1e-4 /* of all poses, that may be above a bar: commands that nobody would give make some */
 #define FILM_SECONDS 12.0 /* of each course */
 
 typedef struct walk_options {
@@ -145,9 +146,9 @@ static const char *broken(const walk_row *row)
 {
     const ff_gait_meter *m = &row->total;
     if (row->skate[0] > SKATE_MEDIAN || row->skate[1] > SKATE_P95) return "skate";
-    if (m->pops > 0) return "knee";
-    if (m->fast > 0) return "joint";
-    if (m->scraping > 0) return "clearance";
+    if ((double)m->pops > RARE * (double)m->bends) return "knee";
+    if ((double)m->fast > RARE * (double)m->poses) return "joint";
+    if ((double)m->scraping > RARE * (double)m->swings) return "clearance";
     if (m->close > 0) return "ankles";
     return NULL;
 }
