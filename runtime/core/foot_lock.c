@@ -115,12 +115,17 @@ static double heel_rise(const ff_body_frame *body, int foot, double pitch)
     return ff_max(heel.y * (1.0 - cosine) - heel.z * sine, 0.0);
 }
 
+void ff_foot_rest(const ff_body_frame *body, ff_gait_foot *state, int foot)
+{
+    state->now.height = state->lock.height + heel_rise(body, foot, state->pitch);
+}
+
 void ff_foot_hold(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing)
 {
     ff_foot_sample sample = ff_sample_foot(scene->space, scene->cursor, foot);
     state->now = state->lock;
     state->pitch = sample.pitch * (1.0 - standing);
-    state->now.height += heel_rise(&scene->space->body, foot, state->pitch);
+    ff_foot_rest(&scene->space->body, state, foot);
 }
 
 double ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing)

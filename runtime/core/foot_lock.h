@@ -45,6 +45,9 @@ void ff_foot_land(ff_gait_foot *state, double ball_rest);
 /* One step of a planted foot; standing, 0 to 1, flattens it. */
 void ff_foot_hold(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
 
+/* Where the ball of a planted foot is at its pitch: over the floor by what the heel needs. */
+void ff_foot_rest(const ff_body_frame *body, ff_gait_foot *state, int foot);
+
 /* One step of a swing; other is the foot on the ground. Returns true when it is time to land. */
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot);
 

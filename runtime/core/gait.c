@@ -200,9 +200,12 @@ static void add_offset(const ff_foot_scene *scene, const ff_pose_offset *offset,
 {
     if (!ff_pose_offset_active(offset)) return;
     ff_pose_foot add = ff_pose_offset_foot(offset, foot);
-    state->now.height += add.height;
     state->pitch += add.pitch;
-    if (state->planted) return;
+    if (state->planted) {
+        ff_foot_rest(&scene->space->body, state, foot);
+        return;
+    }
+    state->now.height += add.height;
     ff_vec2 moved = ff_from_frame2(ff_fwd2(scene->heading), ff_v2(add.forward, add.left));
     state->now.a += moved.a;
     state->now.b += moved.b;

@@ -8,6 +8,8 @@
 #define AT_ONCE 0.08
 #define IN_REACH 0.12    /* m/s, by which rates may be outside what the new way can do */
 #define LEAST_FLIGHT 0.1 /* s to the landing: a foot that is about to land does so first */
+#define SHORT_SWING 1.0  /* u: a foot that has landed is not lifted again for less */
+#define OFF_BEFORE 0.8   /* of the time to the landing: steps may quicken yet */
 #define URGENT_WAIT 0.3  /* s: who must switch waits no longer for a pair */
 #define RUN_FROM 1.35    /* m/s, from where on one may break into a run */
 #define WALK_FROM 1.95   /* m/s, below which a run may become a walk */
@@ -142,7 +144,7 @@ static ff_gait_root root_later(const ff_gait_root *root, double time)
 }
 
 /* Put the clock where the new way has this phase; feet in the air keep their share of the swing. False: the new way would
- * have a foot standing that is in the air, or one is about to land. */
+ * have a foot standing that is in the air, or one is about to land in either. */
 static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend *next, double phase,
                       double until[2])
 {
@@ -150,17 +152,18 @@ static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend
     gait->phase = phase;
     for (int f = 0; f < 2; ++f) {
         ff_gait_foot *foot = &gait->foot[f];
-        until[f] = FF_POSE_OFFSET_TIME;
-        if (foot->planted) continue;
         double start, length;
         ff_blend_lock(space, next, f, &start, &length);
         double left = ff_phase_wrap(start - phase);
-        double time = ff_phase_duration(space, next, phase, phase + left);
+        until[f] = FF_POSE_OFFSET_TIME;
+        if (foot->planted && left < SHORT_SWING) return false;
+        if (foot->planted) continue;
+        double time = ff_phase_duration(space, next, phase, phase + left) / gait->pace;
         if (left >= FF_GAIT_KEYS - length || time < LEAST_FLIGHT) return false;
         double done = ff_min(foot->progress, 0.95);
         foot->phase_left = left;
         foot->elapsed = done * time / (1.0 - done);
-        until[f] = 0.9 * time;
+        until[f] = OFF_BEFORE * time;
     }
     return true;
 }
