@@ -11,6 +11,7 @@
 #define SHORT_SWING 1.0  /* u: a foot that has landed is not lifted again for less */
 #define OFF_BEFORE 0.8   /* of the time to the landing: steps may quicken yet */
 #define URGENT_WAIT 0.3  /* s: who must switch waits no longer for a pair */
+#define PACE_TIME 0.5f   /* s, of hips and joints between a walk and a run: elbows have 70 degrees to go */
 #define RUN_FROM 1.35    /* m/s, from where on one may break into a run */
 #define WALK_FROM 1.95   /* m/s, below which a run may become a walk */
 /* Of a step: the part of the stance on one foot in which a walk may become a run, and back; and the shares of the stance at
@@ -187,6 +188,7 @@ static void take_over(const ff_blend_space *space, ff_gait *gait, const ff_gait 
     ff_gait_targets(space, &ahead, &later, &new_later);
     ff_pose_switch change = {&old_now, &old_later, &new_now, &new_later, LATER, {until[0], until[1]}};
     ff_pose_offset_begin(&gait->offset, &change);
+    if ((old.blend.way == FF_RUNNING) != (gait->blend.way == FF_RUNNING)) gait->offset.time[0] = PACE_TIME;
     ff_gait_advance(space, gait, root, 0.0); /* feet with their offset */
 }
 

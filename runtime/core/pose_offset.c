@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-#define LEAST_TIME 0.02 /* s, that a foot gets at least */
+enum { BODY, FOOT, LEGS = FOOT + 2 }; /* of ff_pose_offset.time */
+#define LEAST_TIME 0.02               /* s, that a foot gets at least */
 
 /* How much is left of a difference, and of its speed (s): the cubic that begins with both and ends with neither. The
  * study found it and the quintic alike (section 6, last table), the cubic with the smaller peaks. */
@@ -48,7 +49,7 @@ static void begin_foot(ff_pose_offset *offset, const ff_pose_switch *change, int
         offset->foot[foot][0][i] = (float)now[i];
         offset->foot[foot][1][i] = (float)((later[i] - now[i]) / change->later);
     }
-    offset->time[1 + foot] = (float)ff_clamp(change->until[foot], LEAST_TIME, FF_POSE_OFFSET_TIME);
+    offset->time[FOOT + foot] = (float)ff_clamp(change->until[foot], LEAST_TIME, FF_POSE_OFFSET_TIME);
 }
 
 void ff_pose_offset_begin(ff_pose_offset *offset, const ff_pose_switch *change)
@@ -56,7 +57,7 @@ void ff_pose_offset_begin(ff_pose_offset *offset, const ff_pose_switch *change)
     const ff_pose_targets *from = change->old_now, *to = change->new_now;
     const ff_pose_targets *from_later = change->old_later, *to_later = change->new_later;
     memset(offset, 0, sizeof *offset);
-    offset->time[0] = (float)FF_POSE_OFFSET_TIME;
+    offset->time[BODY] = offset->time[LEGS] = (float)FF_POSE_OFFSET_TIME;
     put3(offset->hips[0], offset->hips[1], ff_sub3(from->hips, to->hips),
          ff_sub3(from_later->hips, to_later->hips), change->later);
     for (int joint = 0; joint < FF_JOINT_COUNT; ++joint)
@@ -69,27 +70,27 @@ void ff_pose_offset_begin(ff_pose_offset *offset, const ff_pose_switch *change)
 void ff_pose_offset_advance(ff_pose_offset *offset, double dt)
 {
     offset->age += dt;
-    if (!(offset->age < (double)offset->time[0])) memset(offset, 0, sizeof *offset);
+    if (!(offset->age < (double)offset->time[BODY])) memset(offset, 0, sizeof *offset);
 }
 
-static ff_vec3 mix(const ff_pose_offset *offset, const float place[3], const float speed[3])
+static ff_vec3 mix(const ff_pose_offset *offset, int part, const float place[3], const float speed[3])
 {
     double p, s;
-    shares(offset, 0, &p, &s);
+    shares(offset, part, &p, &s);
     return ff_v3(p * (double)place[0] + s * (double)speed[0], p * (double)place[1] + s * (double)speed[1],
                  p * (double)place[2] + s * (double)speed[2]);
 }
 
 ff_vec3 ff_pose_offset_hips(const ff_pose_offset *offset)
 {
-    return mix(offset, offset->hips[0], offset->hips[1]);
+    return mix(offset, BODY, offset->hips[0], offset->hips[1]);
 }
 
 ff_pose_foot ff_pose_offset_foot(const ff_pose_offset *offset, int foot)
 {
     const float(*part)[5] = offset->foot[foot];
     double p, s, sum[5];
-    shares(offset, 1 + foot, &p, &s);
+    shares(offset, FOOT + foot, &p, &s);
     for (int i = 0; i < 5; ++i)
         sum[i] = p * (double)part[0][i] + s * (double)part[1][i];
     return (ff_pose_foot){sum[0], sum[1], sum[2], sum[3], sum[4]};
@@ -97,7 +98,8 @@ ff_pose_foot ff_pose_offset_foot(const ff_pose_offset *offset, int foot)
 
 ff_quat ff_pose_offset_turn(const ff_pose_offset *offset, int joint, ff_quat rotation)
 {
-    ff_vec3 turn = mix(offset, offset->turn[0][joint], offset->turn[1][joint]);
+    int part = joint < FF_JOINT_HIP_L ? BODY : LEGS;
+    ff_vec3 turn = mix(offset, part, offset->turn[0][joint], offset->turn[1][joint]);
     return ff_quat_unit(ff_quat_mul(ff_quat_exp(turn), rotation));
 }
 
