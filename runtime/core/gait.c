@@ -315,11 +315,10 @@ void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, 
                   ff_rates rates, double dt)
 {
     ff_gait_root root = {position, heading, rates};
-    double before = gait->phase;
     ff_gait_advance(space, gait, &root, dt);
     gait->seconds[gait->blend.way] += dt;
     gait->since_switch += dt;
     if (gait->wanted == gait->blend.way) return;
     gait->waited += dt;
-    ff_gait_try_switch(space, gait, &root, before);
+    ff_gait_try_switch(space, gait, &root);
 }

@@ -6,6 +6,7 @@
 /* m: mean distance of the poses of two cycles at equal phase, up to which any moment is as good as a pair. The study found
  * that in straight walking and turns it is 2 to 7 cm all the time, and waiting for pairs gains nothing. */
 #define AT_ONCE 0.08
+#define JUST_NOW 0.12    /* of a cycle: so long a pair is still good, should a foot have to land first */
 #define IN_REACH 0.12    /* m/s, by which rates may be outside what the new way can do */
 #define LEAST_FLIGHT 0.1 /* s to the landing: a foot that is about to land does so first */
 #define SHORT_SWING 1.0  /* u: a foot that has landed is not lifted again for less */
@@ -31,6 +32,11 @@ static int32_t main_vertex(const ff_blend *blend)
     return blend->vertex[best];
 }
 
+static double fraction_of(double x)
+{
+    return x - floor(x);
+}
+
 /* How a walking example corresponds to the semi-procedural clip; NULL if the pack does not say. */
 static const ff_pack_correspondence *to_clip(const ff_blend_space *space, int32_t vertex)
 {
@@ -47,30 +53,22 @@ static const ff_pack_correspondence *to_clip(const ff_blend_space *space, int32_
     return c && c->from == example && c->to == FF_CORRESPOND_GAIT ? c : NULL;
 }
 
-/* Whether going round from before to now passes at (all fractions of a cycle). */
-static bool passes(double before, double now, double at)
-{
-    double span = now - before - floor(now - before), reach = at - before - floor(at - before);
-    return reach > 0.0 && reach <= span;
-}
-
-/* Eq 10 and 15: the pair whose time in the present cycle has just been reached gives the time in the new one. */
-static bool at_a_pair(const ff_blend_space *space, const ff_gait *gait, const ff_blend *next, double before,
-                      double *phase)
+/* Eq 10 and 15: when the time of a pair in the present cycle is reached, or a moment later, its time in the new one. */
+static bool at_a_pair(const ff_blend_space *space, const ff_gait *gait, const ff_blend *next, double *phase)
 {
     bool leaving = gait->blend.way == FF_BLENDING; /* the examples, for the clip */
     int32_t vertex = main_vertex(leaving ? &gait->blend : next);
     const ff_blend *clip = leaving ? next : &gait->blend;
     const ff_pack_correspondence *c = to_clip(space, vertex);
     if (!c || (double)c->mean <= AT_ONCE) return true;
-    double from = leaving ? ff_vertex_fraction(space, vertex, before) : ff_clip_fraction(clip, before);
     double now =
         leaving ? ff_vertex_fraction(space, vertex, gait->phase) : ff_clip_fraction(clip, gait->phase);
     for (uint32_t i = 0; i < c->pair_count; ++i) {
         const ff_pack_pair *pair = &space->pack->pairs[c->first_pair + i];
-        if (!passes(from, now, (double)pair->phase[leaving ? 0 : 1])) continue;
-        *phase = leaving ? ff_clip_phase(clip, (double)pair->phase[1])
-                         : ff_vertex_phase(space, vertex, (double)pair->phase[0]);
+        double late = fraction_of(now - (double)pair->phase[leaving ? 0 : 1]);
+        if (late > JUST_NOW) continue;
+        double then = fraction_of((double)pair->phase[leaving ? 1 : 0] + late);
+        *phase = leaving ? ff_clip_phase(clip, then) : ff_vertex_phase(space, vertex, then);
         return true;
     }
     return false;
@@ -106,12 +104,12 @@ static bool in_reach(const ff_blend_space *space, const ff_gait *gait)
 }
 
 static bool is_the_moment(const ff_blend_space *space, const ff_gait *gait, const ff_blend *next,
-                          double before, double *phase)
+                          double *phase)
 {
     *phase = gait->phase;
     if (gait->wanted == FF_RUNNING || gait->blend.way == FF_RUNNING) return changes_pace(gait, phase);
     if (gait->urgent && gait->waited >= URGENT_WAIT) return true;
-    return in_reach(space, gait) && at_a_pair(space, gait, next, before, phase);
+    return in_reach(space, gait) && at_a_pair(space, gait, next, phase);
 }
 
 /* ------------------------------------------------------------------------------------------------- the switch */
@@ -192,7 +190,7 @@ static void take_over(const ff_blend_space *space, ff_gait *gait, const ff_gait 
     ff_gait_advance(space, gait, root, 0.0); /* feet with their offset */
 }
 
-void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gait_root *root, double before)
+void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gait_root *root)
 {
     ff_gait next = *gait;
     ff_blend blend;
@@ -202,7 +200,7 @@ void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gai
         if (gait->wanted == FF_RUNNING) return;
         gait->blend = blend;
     } else {
-        if (!is_the_moment(space, gait, &blend, before, &phase)) return;
+        if (!is_the_moment(space, gait, &blend, &phase)) return;
         if (!set_clock(space, &next, &blend, phase, until)) return;
         take_over(space, gait, &next, root, until);
         ++gait->switches;

@@ -24,7 +24,7 @@ void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_r
 void ff_gait_targets(const ff_blend_space *space, const ff_gait *gait, const ff_gait_root *root,
                      ff_pose_targets *out);
 
-/* Switch to gait->wanted if this is the moment: phase has just come from before to what it is. */
-void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gait_root *root, double before);
+/* Switch to gait->wanted if this is the moment. */
+void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gait_root *root);
 
 #endif

@@ -56,6 +56,13 @@ straight_walks_are_people_s() {
     run 0 "$crowd" bench facts --pack "$builtin" --json "$work/facts.json" && silent err || return 1
     ! grep -q '"holds": false' "$work/facts.json" && has "$work/out" cadence "knee most in swing" &&
         run 2 "$crowd" bench facts && says err "--pack"
+hybrid_walks_an_obstacle_course_in_three_ways() {
+    run 0 "$crowd" bench hybrid --pack "$builtin" --agents 3 --seeds 1 --step 0.1 --quiet --out "$work/hybrid" \
+        --json "$work/hybrid.json" && silent err || return 1
+    has "$work/out" "blending" "semi-procedural" "hybrid" "3/3" && cmp "$work/hybrid.json" "$work/hybrid/hybrid.json" &&
+        [ "$(wc -l <"$work/hybrid/hybrid.csv")" -eq 4 ] && [ -s "$work/hybrid/hybrid.png" ] &&
+        [ -s "$work/hybrid/hybrid-hybrid.png" ] && [ -s "$work/hybrid/hybrid-blending-film.png" ] &&
+        has "$work/hybrid.json" nn_open_m wall_share changes_per_minute '"arrived": 3'
 }
 mistakes_leave_with_2_and_name_the_way_on() {
     run 2 "$crowd" bench && run 2 "$crowd" bench fig77 && says err "fig7" &&
@@ -71,5 +78,6 @@ test_that "synthesis measures poses with SIMD and without" synthesis_measures_po
 test_that "walks keep their bars" walks_keep_their_bars
 test_that "every example is walked and filmed" every_example_is_walked_and_filmed
 test_that "straight walks are people's" straight_walks_are_people_s
+test_that "hybrid walks an obstacle course in three ways" hybrid_walks_an_obstacle_course_in_three_ways
 test_that "mistakes leave with 2 and name the way on" mistakes_leave_with_2_and_name_the_way_on
 finish

@@ -143,16 +143,19 @@ static void test_the_way_of_navigating_is_read_with_all_its_parts(void **state)
     ff_crowd_def usual = ff_crowd_def_default();
     walker_scene("{\"kind\": \"circle\"}", &scene);
     assert_int_equal(scene.navigation.method, FF_NAVIGATION_MCN);
+    assert_int_equal(scene.navigation.synthesis, usual.synthesis);
     assert_true(scene.navigation.mcn.hull && scene.navigation.mcn.stance && !scene.navigation.mcn.back_pedal);
     FF_ASSERT_NEAR(scene.navigation.keep_right, usual.keep_right, 0.0);
     ff_scene_free(&scene);
     walker_scene(
-        "{\"kind\": \"circle\", \"navigation\": \"sf\", \"mcn\": {\"stance\": false, \"back_pedal\": true, "
+        "{\"kind\": \"circle\", \"navigation\": \"sf\", \"synthesis\": \"semi-procedural\", \"mcn\": "
+        "{\"stance\": false, \"back_pedal\": true, "
         "\"facing\": \"strafe\", \"keep_right\": -0.2, \"padding\": 0.1, \"prediction\": 0}, \"baseline\": "
         "{\"keep_right\": 0.3, \"padding\": 0.02, \"model_velocity\": true}}",
         &scene);
     const ff_scene_navigation *navigation = &scene.navigation;
     assert_int_equal(navigation->method, FF_NAVIGATION_SF);
+    assert_int_equal(navigation->synthesis, FF_SYNTHESIS_SEMI_PROCEDURAL);
     assert_true(navigation->mcn.hull && !navigation->mcn.stance && navigation->mcn.back_pedal);
     assert_int_equal(navigation->mcn.facing, FF_FACING_STRAFE);
     FF_ASSERT_NEAR(navigation->keep_right, -0.2, 0.0);
@@ -162,11 +165,13 @@ static void test_the_way_of_navigating_is_read_with_all_its_parts(void **state)
     assert_true(navigation->baseline.model_velocity);
     ff_scene_free(&scene);
     walker_scene("{\"kind\": \"custom\", \"agents\": [{\"position\": [0, 0], \"goal\": [1, 1], "
-                 "\"navigation\": \"orca\"}, "
+                 "\"navigation\": \"orca\", \"synthesis\": \"hybrid\"}, "
                  "{\"position\": [3, 0], \"goal\": [1, 1]}]}",
                  &scene);
     assert_int_equal(ff_scene_agents(&scene)[0].navigation, FF_NAVIGATION_ORCA);
     assert_int_equal(ff_scene_agents(&scene)[1].navigation, FF_NAVIGATION_CROWD);
+    assert_int_equal(ff_scene_agents(&scene)[0].synthesis, FF_SYNTHESIS_HYBRID);
+    assert_int_equal(ff_scene_agents(&scene)[1].synthesis, FF_SYNTHESIS_CROWD);
     ff_scene_free(&scene);
 }
 
@@ -194,6 +199,8 @@ static void test_every_mistake_is_named_with_its_line(void **state)
         {"{\"kind\": \"circle\",\n\"walls\": [[1, 2, 3,\n\"x\"]]}", "wall", 3},
         {"{\"kind\": \"circle\",\n\"navigation\": \"rvo\"}", "rvo", 2},
         {"{\"kind\": \"circle\",\n\"navigation\": \"\"}", "navigation", 2},
+        {"{\"kind\": \"circle\",\n\"synthesis\": \"motion graph\"}", "semi-procedural", 2},
+        {"{\"kind\": \"circle\",\n\"synthesis\": 1}", "synthesis", 2},
         {"{\"kind\": \"circle\",\n\"mcn\": true}", "mcn", 2},
         {"{\"kind\": \"circle\",\n\"mcn\": {\"hulk\": true}}", "hull", 2},
         {"{\"kind\": \"circle\",\n\"mcn\": {\"hull\": 1}}", "hull", 2},
