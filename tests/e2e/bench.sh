@@ -56,6 +56,7 @@ straight_walks_are_people_s() {
     run 0 "$crowd" bench facts --pack "$builtin" --json "$work/facts.json" && silent err || return 1
     ! grep -q '"holds": false' "$work/facts.json" && has "$work/out" cadence "knee most in swing" &&
         run 2 "$crowd" bench facts && says err "--pack"
+}
 hybrid_walks_an_obstacle_course_in_three_ways() {
     run 0 "$crowd" bench hybrid --pack "$builtin" --agents 3 --seeds 1 --step 0.1 --quiet --out "$work/hybrid" \
         --json "$work/hybrid.json" && silent err || return 1
