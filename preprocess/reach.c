@@ -1,4 +1,4 @@
-/* Cheapest ways in empty space, for the actions that planners take by default.
+/* Cheapest ways in empty space to a stand, for the actions that planners take by default.
  *
  * Where a goal lies, seen by who has just ended an action, is all that matters; so Dijkstra's algorithm runs backwards over
  * (action that has ended, place of the goal): from goals that are reached to those that one more step before leads to. Places
@@ -23,7 +23,7 @@ enum {
 };
 enum { TABLE = FF_REACH_CELLS * FF_REACH_CELLS, FILL_ROUNDS = 12 };
 static const float BUCKET = 0.05f;                                  /* J/kg; no step costs so little */
-static const float COVER = FF_REACH_RADIUS + 0.71f * FF_REACH_CELL; /* m: whole cells count as reached */
+static const float COVER = FF_REACH_RADIUS; /* m: of the middles of cells that count as reached */
 static const float NEVER = 1e6f;
 
 /* ------------------------------------------------------------------------------------------------------- steps */
@@ -97,6 +97,7 @@ typedef struct ways {
     uint32_t count; /* actions */
     const edge *edges;
     const uint32_t *first;
+    bool *stands;     /* of each action: ends in standing */
     float *least;     /* [count][PLANE] J/kg */
     float (*goal)[2]; /* m: where exactly it lies */
     uint8_t *done;
@@ -128,16 +129,18 @@ static bool offer(ways *w, uint32_t action, float f, float l, float cost)
     return true;
 }
 
-/* Goals that are reached already. */
+/* Goals that are reached already, by standing there. */
 static bool offer_goals(ways *w)
 {
     bool good = true;
-    for (uint32_t a = 0; a < w->count; ++a)
+    for (uint32_t a = 0; a < w->count; ++a) {
+        if (!w->stands[a]) continue;
         for (int i = -4; i <= 4; ++i)
             for (int k = -4; k <= 4; ++k) {
                 float f = FF_REACH_CELL * (float)i, l = FF_REACH_CELL * (float)k;
                 if (f * f + l * l <= COVER * COVER) good = good && offer(w, a, f, l, 0.0f);
             }
+    }
     return good;
 }
 
@@ -200,7 +203,7 @@ static void crop(const float *plane, bool mirrored, float *table)
             const float *at = plane + (i + EDGE) * CELLS + column;
             float least = at[0];
             for (int side = 0; side < 4; ++side) {
-                float beside = at[(int[]){1, -1, CELLS, -CELLS}[side]];
+                float beside = at[(int[]){1, -1, CELLS, -CELLS}[side]] + 0.3f;
                 least = beside < least ? beside : least;
             }
             table[i * FF_REACH_CELLS + k] = least;
@@ -290,11 +293,15 @@ static bool begin(work *w, const ff_pack *pack)
     w->index = ff_calloc(count, sizeof *w->index);
     w->tables = ff_calloc(count * TABLE, sizeof *w->tables);
     w->gap = ff_calloc(count * count, sizeof *w->gap);
+    w->ways.stands = ff_calloc(count, sizeof *w->ways.stands);
     w->ways.least = ff_calloc(count * PLANE, sizeof *w->ways.least);
     w->ways.goal = ff_calloc(count * PLANE, sizeof *w->ways.goal);
     w->ways.done = ff_calloc(count * PLANE, sizeof *w->ways.done);
-    return w->first && w->kind && w->index && w->tables && w->gap && w->ways.least && w->ways.goal &&
-           w->ways.done && find_edges(pack, w->place, w->ways.count, &w->edges, w->first);
+    if (!w->ways.stands) return false;
+    for (uint32_t i = 0; i < total; ++i)
+        if (w->chosen[i]) w->ways.stands[w->place[i]] = (pack->actions[i].flags & FF_ACTION_TO_STANDING) != 0;
+    return w->first && w->kind && w->index && w->tables && w->gap && w->ways.stands && w->ways.least &&
+           w->ways.goal && w->ways.done && find_edges(pack, w->place, w->ways.count, &w->edges, w->first);
 }
 
 static void end(work *w)
@@ -307,6 +314,7 @@ static void end(work *w)
     free(w->index);
     free(w->tables);
     free(w->gap);
+    free(w->ways.stands);
     free(w->ways.least);
     free(w->ways.goal);
     free(w->ways.done);

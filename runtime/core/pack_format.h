@@ -267,14 +267,14 @@ typedef struct ff_pack_successor {
     float cost; /* J/kg that a planner is charged for the joint (footstep study, section 4.5) */
 } ff_pack_successor;
 
-/* What it costs, J/kg, to bring the root within FF_REACH_RADIUS of a place in empty space, from where an action has ended
- * with the left foot landed: seen from the root, along its heading (for the right one: mirrored). Place [i][k] is
+/* What it costs, J/kg, to come to stand with the root within FF_REACH_RADIUS of a place in empty space, from where an action
+ * has ended with the left foot landed: seen from the root, along its heading (for the right one: mirrored). Place [i][k] is
  * FF_REACH_CELL * (i - FF_REACH_CELLS / 2) ahead, the same with k to the left. By the actions that have a table alone; at
  * most what any of a table's actions needs (footstep study, section 4.2). */
 #define FF_REACH_CELL 0.1f    /* m */
 #define FF_REACH_RADIUS 0.35f /* m */
 #define FF_REACH_UNIT 1e-3f   /* J/kg of one */
-enum { FF_REACH_CELLS = 81, FF_REACH_KINDS_MAX = 32, FF_REACH_NEVER = 0xffff };
+enum { FF_REACH_CELLS = 81, FF_REACH_KINDS_MAX = 64, FF_REACH_NEVER = 0xffff };
 #define FF_REACH_NONE 0xffffffffu
 typedef struct ff_pack_reach {
     uint16_t cost[FF_REACH_CELLS][FF_REACH_CELLS + 1]; /* the last column is not used */

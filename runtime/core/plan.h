@@ -39,7 +39,7 @@ const ff_pack *ff_action_set_pack(const ff_action_set *set);
 
 /* ---------------------------------------------------------------------------------------------------- plans */
 
-enum { FF_PLAN_STEPS_MAX = 20 };
+enum { FF_PLAN_STEPS_MAX = 26 };
 
 /* An action in its place. Its frame S0 (pack_format.h) has its origin at anchor and looks along heading. */
 typedef struct ff_plan_step {
@@ -93,14 +93,14 @@ double ff_action_blend(const ff_action_set *set, uint32_t action);
 /* --------------------------------------------------------------------------------------------------- tracks */
 
 #define FF_TRACK_STEP 0.1 /* s: knot k is at k * FF_TRACK_STEP */
-enum { FF_TRACK_KNOTS_MAX = 96, FF_TRACK_LANES = 8, FF_TRACK_CHUNK = 8 };
+enum { FF_TRACK_KNOTS_MAX = 128, FF_TRACK_LANES = FF_COLLIDER_COUNT, FF_TRACK_CHUNK = 8 };
 
 /* Horizontal radii of the colliders, m (algorithms A.9; root: footstep study, section 2). */
 extern const float ff_collider_radius[FF_COLLIDER_COUNT];
 /* Heights between which a collider at height y is solid. */
 void ff_collider_extent(uint32_t collider, float y, float *low, float *high);
 
-/* All colliders at one moment, relative to the track's origin. Lanes behind the last collider repeat the root. */
+/* All colliders at one moment, relative to the track's origin. */
 typedef struct ff_knot {
     float a[FF_TRACK_LANES], b[FF_TRACK_LANES], y[FF_TRACK_LANES];
 } ff_knot;
@@ -180,7 +180,8 @@ bool ff_solids_clear(const ff_solids *solids, ff_vec2 p, ff_vec2 q, double radiu
 uint32_t ff_waypoint_seen(const ff_solids *solids, const ff_vec2 *points, uint32_t count, uint32_t next,
                           ff_vec2 position, double radius);
 
-/* Way to a goal past what does not move, from everywhere within an extent. Shared by all who have the goal. */
+/* Way to a goal past what does not move, from everywhere within an extent (m, each way), for somebody who keeps a clearance: 0.5 m
+ * fits people, whose elbows catch at corners. Shared by all who have the goal; at most 1 MB. */
 typedef struct ff_field ff_field;
 ff_status ff_field_create(const ff_solids *solids, ff_vec2 goal, double extent, double clearance,
                           ff_field **out, ff_error *error);
@@ -221,7 +222,7 @@ typedef struct ff_plan_options {
     uint32_t nodes; /* how many may be expanded; default 300 */
     double
         seconds; /* wall clock on top of it; 0 (default) = none, then results depend on the arguments alone */
-    uint32_t horizon;      /* actions ahead, default 12, at most 14; 1 = purely reactive */
+    uint32_t horizon;      /* actions ahead, default 16, at most 20; 1 = purely reactive */
     double time_horizon;   /* s: who gets so far has done enough; default 5, 0 = none */
     double inflation;      /* of the heuristic in the first round; default 2 */
     double inflation_step; /* less of it in each further round, down to 1; 0 = one round only. Default 0.5 */

@@ -5,9 +5,12 @@
 #include "runtime/core/base/memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-enum { SIDE_MAX = 512, MOVES = 16 };
-static const double CELL = 0.2; /* m; more where the extent needs it */
+enum { SIDE_MAX = 512, MOVES = 16, LAYERS = 3 };
+enum { OPEN, TIGHT, SHUT };
+static const double CELL = 0.2;    /* m; more where the extent needs it */
+static const float TIGHTER = 4.0f; /* a step into the clearance is worth so many: elbows catch there */
 /* Ways over the grid turn by multiples of 22.5 degrees or so: they are up to this much longer than straight ones. */
 static const float DETOUR = 1.0f / 1.028f;
 
@@ -92,6 +95,33 @@ static bool spread(ff_field *field, const uint8_t *closed, ff_array *heap)
     return true;
 }
 
+/* Somebody who turns by a wall is nearer to it than one who walks along it would be: closed cells in which the torso fits
+ * take over from the open ones beside them, and the next ones from those. Two such cells on either side of a wall are no neighbours,
+ * so what lies behind it does not show through. */
+static bool fill_closed(ff_field *field, const uint8_t *closed)
+{
+    size_t cells = (size_t)field->side * field->side;
+    float *next = ff_calloc(cells, sizeof *next);
+    for (int layer = 0; next && layer < LAYERS; ++layer) {
+        memcpy(next, field->distance, cells * sizeof *next);
+        for (uint32_t c = 0; c < cells; ++c) {
+            if (closed[c] != TIGHT || field->distance[c] < INFINITY) continue;
+            int i = (int)(c / field->side), k = (int)(c % field->side);
+            for (int m = 0; m < 8; ++m) {
+                int a = i + moves[m][0], b = k + moves[m][1];
+                if (!inside(field, a, b)) continue;
+                float by =
+                    field->distance[(uint32_t)a * field->side + (uint32_t)b] + TIGHTER * (float)field->cell;
+                next[c] = by < next[c] ? by : next[c];
+            }
+        }
+        memcpy(field->distance, next, cells * sizeof *next);
+    }
+    bool good = next != NULL;
+    free(next);
+    return good;
+}
+
 /* Begins at the goal; at one in a wall, with what is free around it. */
 static bool begin(ff_field *field, const uint8_t *closed, ff_vec2 goal, ff_array *heap)
 {
@@ -124,6 +154,7 @@ ff_status ff_field_create(const ff_solids *solids, ff_vec2 goal, double extent, 
         int half = (int)ceil(extent / field->cell);
         field->side = (uint32_t)(2 * half + 1);
         field->corner = ff_sub2(goal, ff_v2(half * field->cell, half * field->cell));
+        double fits = 0.75 * field->cell; /* more than half of the way to a neighbour's middle */
         size_t cells = (size_t)field->side * field->side;
         field->distance = ff_calloc(cells, sizeof *field->distance);
         closed = ff_calloc(cells, 1);
@@ -132,9 +163,11 @@ ff_status ff_field_create(const ff_solids *solids, ff_vec2 goal, double extent, 
             ff_vec2 at =
                 ff_add2(field->corner, ff_v2(c / field->side * field->cell, c % field->side * field->cell));
             field->distance[c] = INFINITY;
-            closed[c] = ff_solids_near(solids, at, clearance);
+            if (ff_solids_near(solids, at, clearance))
+                closed[c] = ff_solids_near(solids, at, fits) ? SHUT : TIGHT;
         }
-        good = good && begin(field, closed, goal, &heap) && spread(field, closed, &heap);
+        good = good && begin(field, closed, goal, &heap) && spread(field, closed, &heap) &&
+               fill_closed(field, closed);
     }
     free(closed);
     ff_array_free(&heap);
@@ -167,4 +200,30 @@ double ff_field_distance(const ff_field *field, ff_vec2 p)
             best = ff_min(best, distance + away);
         }
     return best < INFINITY ? ff_max(best - 0.5 * field->cell, 0.0) : -1.0;
+}
+
+uint32_t ff_field_path(const ff_field *field, ff_vec2 p, ff_vec2 *out, uint32_t most)
+{
+    int i = (int)floor((p.a - field->corner.a) / field->cell + 0.5),
+        k = (int)floor((p.b - field->corner.b) / field->cell + 0.5);
+    uint32_t count = 0;
+    float here = INFINITY;
+    if (inside(field, i, k)) here = field->distance[(uint32_t)i * field->side + (uint32_t)k];
+    while (count < most && here > 0.0f) {
+        int best = -1;
+        for (int m = 0; m < MOVES; ++m) {
+            int a = i + moves[m][0], b = k + moves[m][1];
+            if (!inside(field, a, b)) continue;
+            float there = field->distance[(uint32_t)a * field->side + (uint32_t)b];
+            if (there < here) {
+                here = there;
+                best = m;
+            }
+        }
+        if (best < 0) break;
+        i += moves[best][0];
+        k += moves[best][1];
+        out[count++] = ff_add2(field->corner, ff_v2(i * field->cell, k * field->cell));
+    }
+    return count;
 }

@@ -15,4 +15,8 @@ struct ff_field {
 /* m to the goal from p, at most; negative when the field does not say. */
 double ff_field_distance(const ff_field *field, ff_vec2 p);
 
+/* The way down from p to the goal, a cell or two at a time: at most `most` places, p not among them. Returns how many; 0 when
+ * the field does not say. */
+uint32_t ff_field_path(const ff_field *field, ff_vec2 p, ff_vec2 *out, uint32_t most);
+
 #endif

@@ -9,8 +9,7 @@ ff_limits ff_limits_of(float margin)
     ff_limits limits;
     for (int i = 0; i < FF_COLLIDER_COUNT; ++i)
         for (int k = 0; k < FF_TRACK_LANES; ++k) {
-            float near =
-                k < FF_COLLIDER_COUNT ? ff_collider_radius[i] + ff_collider_radius[k] + margin : -1.0f;
+            float near = ff_collider_radius[i] + ff_collider_radius[k] + margin;
             limits.squared[i][k] = near > 0.0f ? near * near : -1.0f;
         }
     return limits;
@@ -42,7 +41,7 @@ static unsigned near_lanes(int i, const ff_knot *x0, const ff_knot *x1, const ff
     __m128 xa0 = _mm_set1_ps(x0->a[i] - a), xb0 = _mm_set1_ps(x0->b[i] - b);
     __m128 xa1 = _mm_set1_ps(x1->a[i] - a), xb1 = _mm_set1_ps(x1->b[i] - b);
     const __m128 zero = _mm_setzero_ps(), one = _mm_set1_ps(1.0f), tiny = _mm_set1_ps(1e-12f);
-    for (int k = 0; k < FF_TRACK_LANES; k += 4) {
+    for (int k = 0; k <= FF_TRACK_LANES - 4; k += FF_TRACK_LANES - 4) { /* the middle ones twice */
         __m128 pa = _mm_sub_ps(_mm_loadu_ps(y0->a + k), xa0), pb = _mm_sub_ps(_mm_loadu_ps(y0->b + k), xb0);
         __m128 da = _mm_sub_ps(_mm_sub_ps(_mm_loadu_ps(y1->a + k), xa1), pa);
         __m128 db = _mm_sub_ps(_mm_sub_ps(_mm_loadu_ps(y1->b + k), xb1), pb);

@@ -4,7 +4,7 @@
 
 #include "runtime/core/plan.h"
 
-/* Squares of how near colliders may come: [mine][theirs]; spare lanes never meet anything. */
+/* Squares of how near colliders may come: [mine][theirs]. */
 typedef struct ff_limits {
     float squared[FF_COLLIDER_COUNT][FF_TRACK_LANES];
 } ff_limits;

@@ -21,7 +21,7 @@
 #define HOLD 0.5f          /* s, of waiting at a time */
 #define LATE 1.5f          /* s past the time horizon in which a stop may be found */
 #define NONE UINT32_MAX
-enum { HORIZON_MAX = 14, NODES_MAX = 1 << 20, PLACES = 1 << 14 };
+enum { HORIZON_MAX = 20, NODES_MAX = 1 << 20, PLACES = 1 << 14 };
 
 enum { TESTED = 1, SAFE = 2, UNSAFE = 4, CLOSED = 8, HELD = 16, DEAD = 32 };
 
@@ -641,7 +641,8 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
     const ff_plan_step *doing = &current->steps[step];
     double end = doing->hold ? ff_max(time, doing->start) : ff_plan_step_end(current, step);
     ff_sight_open(set, world, options, doing->anchor, end, &scratch->sight);
-    s.guide = ff_guide_make(set, goal, doing->anchor, options->table);
+    s.guide = ff_guide_make(set, world->solids, goal, ff_plan_root_at(set, current, end).position,
+                            doing->anchor, options->table);
     s.inflation = (float)ff_max(options->inflation, 1.0);
     float start = (float)scratch->sight.lead;
     s.ahead = options->time_horizon > 0.0 ? start + (float)options->time_horizon : INFINITY;
@@ -666,7 +667,7 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
 ff_plan_options ff_plan_options_default(void)
 {
     return (ff_plan_options){.nodes = 300,
-                             .horizon = 12,
+                             .horizon = 16,
                              .time_horizon = 5.0,
                              .inflation = 2.0,
                              .inflation_step = 0.5,

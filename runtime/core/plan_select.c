@@ -96,9 +96,25 @@ static void take(selection *s, uint32_t index)
     }
 }
 
-/* Of each kind that begins or ends in standing, the one that joins most others of the pack. */
+/* The usable one of a kind that joins most others of the pack; count when there is none. */
+static uint32_t best_of_kind(const selection *s, const uint32_t *links, int kind)
+{
+    uint32_t best = s->count;
+    for (uint32_t i = 0; i < s->count; ++i) {
+        const ff_pack_action *r = &s->pack->actions[i];
+        bool ordinary = kind != 0 || r->mode == FF_MODE_WALK_SHORT || r->mode == FF_MODE_WALK_LONG;
+        if (s->usable[i] && ordinary && kind_of(r) == kind && (best == s->count || links[i] > links[best]))
+            best = i;
+    }
+    return best;
+}
+
+/* Standing, walking, a start and a stop; turns on the spot; steps aside and back; then one of every other kind that begins or
+ * ends in standing, as long as two thirds of the room are left for steps. */
 static void take_needed(selection *s)
 {
+    static const int first[] = {1, 30, 50, 0, 70, 12, 13, 11, 35, 55, 75, 40, 60, 80, 90};
+    enum { FIRST = sizeof first / sizeof first[0] };
     uint32_t *links = ff_calloc(s->count, sizeof *links);
     if (!links) return;
     for (uint32_t i = 0; i < s->count; ++i) {
@@ -107,13 +123,13 @@ static void take_needed(selection *s)
         for (uint32_t k = 0; k < r->successor_count; ++k)
             ++links[s->pack->successors[r->first_successor + k].action];
     }
-    for (int kind = 1; kind < KINDS; ++kind) {
-        uint32_t best = s->count;
-        for (uint32_t i = 0; i < s->count; ++i)
-            if (s->usable[i] && kind_of(&s->pack->actions[i]) == kind &&
-                (best == s->count || links[i] > links[best]))
-                best = i;
-        if (best < s->count && (kind == 1 || 2 * s->chosen < s->cap)) take(s, best);
+    bool done[KINDS] = {false};
+    for (int round = 0; round < FIRST + KINDS; ++round) {
+        int kind = round < FIRST ? first[round] : round - FIRST;
+        uint32_t best = best_of_kind(s, links, kind);
+        bool room = round < 5 || (round < FIRST ? 2 * s->chosen < s->cap : 3 * s->chosen < s->cap);
+        if (!done[kind] && best < s->count && room) take(s, best);
+        done[kind] = true;
     }
     free(links);
 }

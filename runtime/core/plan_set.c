@@ -67,9 +67,8 @@ static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_act
     ff_knot *to = set->samples + a->first_knot;
     float low_a = INFINITY, low_b = INFINITY, high_a = -INFINITY, high_b = -INFINITY;
     for (uint32_t k = 0; k < a->knots; ++k)
-        for (uint32_t i = 0; i < FF_TRACK_LANES; ++i) {
-            uint32_t c = i < FF_COLLIDER_COUNT ? i : FF_COLLIDER_ROOT;
-            const ff_pack_collider *p = &from[k * FF_COLLIDER_COUNT + c];
+        for (uint32_t i = 0; i < FF_COLLIDER_COUNT; ++i) {
+            const ff_pack_collider *p = &from[k * FF_COLLIDER_COUNT + i];
             to[k].a[i] = p->a;
             to[k].b[i] = p->b;
             to[k].y[i] = p->y;
@@ -220,6 +219,10 @@ static void find_stops(ff_action_set *set, uint32_t index)
                                         next->cost + last->cost});
         }
     }
+    float least = INFINITY;
+    for (uint32_t k = 0; k < n; ++k)
+        least = fminf(least, list[k].cost);
+    if (direct) set->stop_cost = fmaxf(set->stop_cost, least);
     a->first_stop = set->stop_total;
     a->stop_count = n;
     set->stop_total += n;

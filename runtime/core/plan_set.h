@@ -67,6 +67,7 @@ struct ff_action_set {
     ff_knot *samples;
     uint32_t next_total, knot_total, stop_total;
     uint32_t next_most; /* successors of one action */
+    float stop_cost;    /* J/kg: the cheapest way to a stand, from where that is dearest */
     float rate;         /* J/kg per m: no sequence of actions moves the root further for less */
 };
 

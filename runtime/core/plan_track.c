@@ -148,11 +148,10 @@ void ff_plan_track(const ff_action_set *set, const ff_plan *plan, double from, f
         placed at;
         colliders_at(set, plan, step, time, &at);
         ff_knot *knot = &out->knots[out->count];
-        for (int i = 0; i < FF_TRACK_LANES; ++i) {
-            int c = i < FF_COLLIDER_COUNT ? i : FF_COLLIDER_ROOT;
-            knot->a[i] = (float)(at.a[c] - out->origin.a);
-            knot->b[i] = (float)(at.b[c] - out->origin.b);
-            knot->y[i] = (float)at.y[c];
+        for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
+            knot->a[i] = (float)(at.a[i] - out->origin.a);
+            knot->b[i] = (float)(at.b[i] - out->origin.b);
+            knot->y[i] = (float)at.y[i];
         }
         out->radius[out->count++] = ff_knot_radius(knot);
         if (time >= stands) break;

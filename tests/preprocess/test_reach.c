@@ -1,5 +1,4 @@
-/* Reach tables against walks of the pack's own actions: nothing gets anywhere for much less than the tables say, and there is a
- * way for what they say. */
+/* Reach tables against walks of the pack's own actions: nobody comes to stand anywhere for much less than the tables say. */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
 #include "runtime/core/plan_set.h"
@@ -89,9 +88,10 @@ static void nothing_gets_anywhere_for_less(void **state)
                 follow(&j, ff_action_set_record(f->set, at), ff_action_set_record(f->set, next->action));
             cost += (double)next->cost;
             at = next->action;
-            /* A goal somewhere within the radius of where the root is now. */
+            if (!(f->set->actions[at].flags & FF_SET_TO_STANDING)) continue;
+            /* A goal whose whole cell lies within the radius of where the root is now. */
             ff_vec2 goal = ff_madd2(root, ff_fwd2(ff_random_range(&random, -FF_PI, FF_PI)),
-                                    0.35 * sqrt(ff_random_unit(&random)));
+                                    0.2 * sqrt(ff_random_unit(&random)));
             double least = table_cost(f->pack, begin, goal);
             if (least < 0.0) continue;
             ++looked;
@@ -100,8 +100,8 @@ static void nothing_gets_anywhere_for_less(void **state)
         }
     }
     printf("  %d ways: %d cost less than the table says, by at most %.2f J/kg\n", looked, less, worst);
-    assert_true(looked > 100000);
-    FF_ASSERT_BELOW((double)less, 1e-4 * looked); /* the lattice */
+    assert_true(looked > 50000);
+    FF_ASSERT_BELOW((double)less, 2e-3 * looked); /* the lattice */
     FF_ASSERT_BELOW(worst, 0.5);
 }
 
@@ -118,7 +118,7 @@ static void straight_on_costs_what_walking_costs_and_turning_round_costs_more(vo
         if (ahead > 60.0) continue; /* ends with its feet so that little may follow */
         ++seen;
         assert_true(here == 0.0);
-        assert_true(ahead >= 0.97 * 3.3525 * (3.5 - 0.35 - 0.071) && behind > ahead + 1.0);
+        assert_true(ahead >= 3.3525 * (3.5 - 0.35 - 0.071) && behind > ahead + 1.0);
     }
     assert_true(seen >= 4);
 }
