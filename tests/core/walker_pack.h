@@ -267,6 +267,61 @@ static inline void ff_walker_clip(ff_pack_content *content)
     ff_walker_push(&content->colliders, FF_COLLIDER_COUNT, sizeof(ff_pack_collider));
 }
 
+/* Three actions instead of the one: a step with either foot and a stand, which follow each other, with events. After
+ * ff_walker_content. */
+static inline void ff_walker_steps(ff_pack_content *content)
+{
+    enum { ACTIONS = 3, SAMPLES = 3, EVENTS = 2 };
+    content->actions.count = content->colliders.count = 0;
+    ((ff_pack_clip *)content->clips.data)->action_count = ACTIONS;
+    ff_pack_action *action = ff_walker_push(&content->actions, ACTIONS, sizeof *action);
+    ff_pack_collider *collider =
+        ff_walker_push(&content->colliders, ACTIONS * SAMPLES * FF_COLLIDER_COUNT, sizeof *collider);
+    ff_pack_event *event = ff_walker_push(&content->events, ACTIONS * EVENTS, sizeof *event);
+    ff_pack_successor *next = ff_walker_push(&content->successors, 2 * ACTIONS, sizeof *next);
+    for (uint32_t i = 0; i < ACTIONS; ++i) {
+        bool stand = i == 2;
+        uint32_t support = i & 1u;
+        float length = stand ? 0.0f : 0.6f, aside = support ? 0.18f : -0.18f;
+        action[i] = (ff_pack_action){
+            .mode = stand ? FF_MODE_IDLE : FF_MODE_WALK_LONG,
+            .support = support,
+            .swing = 1u - support,
+            .flags = stand ? FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING : 0,
+            .t_end = 0.5f,
+            .duration = 0.5f,
+            .root_displacement = {length, 0.0f},
+            .speed = 2.0f * length,
+            .swing_displacement = {2.0f * length, 0.0f},
+            .step_length = length,
+            .step_width = 0.18f,
+            .root_start = {0.0f, 0.5f * aside, 0.0f},
+            .root_end = {length, 0.5f * aside, 0.0f},
+            .land = {length, aside, 0.0f},
+            .energy = 1.5f,
+            .flight = {-1.0f, -1.0f},
+            .coarse_radius = 0.5f,
+            .first_collider = i * SAMPLES * FF_COLLIDER_COUNT,
+            .collider_samples = SAMPLES,
+            .swing_plant = UINT32_MAX,
+            .first_event = i * EVENTS,
+            .event_count = EVENTS,
+            .first_successor = 2 * i,
+            .successor_count = 2,
+        };
+        for (uint32_t k = 0; k < SAMPLES * FF_COLLIDER_COUNT; ++k)
+            collider[action[i].first_collider + k] =
+                (ff_pack_collider){length * (float)(k / FF_COLLIDER_COUNT) / (SAMPLES - 1), 0.5f * aside,
+                                   0.3f * (float)(k % FF_COLLIDER_COUNT)};
+        event[i * EVENTS] = (ff_pack_event){0.1f, 1u - support, FF_EVENT_TOE_OFF, 0};
+        event[i * EVENTS + 1] = (ff_pack_event){0.4f, 1u - support, FF_EVENT_CONTACT, 0};
+        /* Who stands on the left foot lands on the right one: the action that stands on that, and the stand where it may. */
+        uint32_t then = support ? 0u : 1u;
+        next[2 * i] = (ff_pack_successor){then, 0.01f, 0.2f};
+        next[2 * i + 1] = (ff_pack_successor){support || stand ? 2u : 1u, 0.02f, 0.4f};
+    }
+}
+
 /* Loops, one correspondence of two pairs and one with the semi-procedural clip, whose numbers are plausible. */
 static inline void ff_walker_gait(ff_pack_content *content)
 {

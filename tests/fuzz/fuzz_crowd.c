@@ -1,11 +1,9 @@
 /* The loader of saved crowds, and a crowd going on from whatever it lets through. A first byte of 0: the rest is the file.
- * Else the rest are changes to a crowd that was saved just now, so that seeds outlive every change of the state: 11 bytes
- * each, for a section (modulo their number), a place in it (2 bytes: modulo its size) and what is written there, at most 8
- * bytes. The checksum is put right first: it would hide every other check. */
+ * Else the rest are changes to a crowd that was saved just now (change_sections.h). The checksum is put right first: it would hide every other check. */
 #include "tests/core/crowd_saved.h"
 #include "tests/core/pack_seal.h"
+#include "tests/fuzz/change_sections.h"
 
-#define CHANGE 11
 #define AGENTS_MOST 64u /* a definition may ask for a million, which only takes time */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -30,23 +28,6 @@ static void prepare(void)
     ff_crowd *crowd = ff_saved_crowd(pack);
     saved = ff_saved_bytes(crowd, &saved_size);
     ff_crowd_destroy(crowd);
-}
-
-static void change(unsigned char *bytes, const uint8_t *data, size_t size)
-{
-    ff_pack_header header;
-    memcpy(&header, bytes, sizeof header);
-    for (; size >= CHANGE; data += CHANGE, size -= CHANGE) {
-        ff_pack_section section;
-        size_t at = sizeof header + data[0] % (header.section_count + 1u) * sizeof section;
-        memcpy(&section, saved + at, sizeof section); /* of the last one, and a place in the table itself */
-        bool table = data[0] % (header.section_count + 1u) == header.section_count;
-        uint64_t start = table ? sizeof header : section.offset;
-        uint64_t length = table ? header.section_count * sizeof section : section.size;
-        uint64_t byte = (uint64_t)(data[1] | data[2] << 8);
-        if (length < 8) continue;
-        memcpy(bytes + start + 8 * (byte % (length / 8)), data + 3, 8);
-    }
 }
 
 static uint32_t agents_most(const unsigned char *bytes, size_t size)
@@ -80,7 +61,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     unsigned char *copy = malloc(bytes + 1);
     if (!copy) return 0;
     memcpy(copy, whole ? data + 1 : saved, bytes);
-    if (!whole) change(copy, data + 1, size - 1);
+    if (!whole) ff_change_sections(copy, saved, data + 1, size - 1);
     load(copy, bytes);
     free(copy);
     return 0;
