@@ -538,6 +538,8 @@ void ff_crowd_step(ff_crowd *crowd);
  * goes on; the agent stays in the state it had come to. */
 ff_status ff_crowd_fault(const ff_crowd *crowd, ff_error *error);
 
+/* As it was created, or saved; its behaviour is the crowd's own copy. */
+ff_crowd_def ff_crowd_definition(const ff_crowd *crowd);
 uint32_t ff_crowd_agent_count(const ff_crowd *crowd);
 uint64_t ff_crowd_step_count(const ff_crowd *crowd);
 

@@ -328,7 +328,8 @@ ff_status ff_crowd_put(ff_crowd *crowd, const ff_agent_def *def, uint32_t spawne
     place_body(crowd, slot, def->position, ff_wrap(def->heading));
     if (crowd->behaviour && !ff_crowd_behave_start(crowd, slot, def->machine, spawner)) {
         free_slot(crowd, slot);
-        return ff_fail(error, FF_ERR_RANGE, "no goal of the first state of machine %s is free",
+        return ff_fail(error, FF_ERR_RANGE,
+                       "no goal of the first state of machine %s is free: raise a capacity, or put in fewer",
                        crowd->behaviour->def.machines[def->machine].name);
     }
     ff_vec2 way = ff_sub2(crowd->traits[slot].goal, def->position);
@@ -434,6 +435,11 @@ ff_status ff_crowd_add_wall(ff_crowd *crowd, ff_vec2 p, ff_vec2 q, ff_error *err
 uint32_t ff_crowd_agent_count(const ff_crowd *crowd)
 {
     return crowd->agent_count;
+}
+
+ff_crowd_def ff_crowd_definition(const ff_crowd *crowd)
+{
+    return crowd->def;
 }
 
 ff_crowd_counts ff_crowd_count(const ff_crowd *crowd)

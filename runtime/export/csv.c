@@ -13,9 +13,10 @@ ff_status ff_csv_write(const char *path, const ff_scene *scene, const ff_recordi
         for (uint32_t i = 0; i < recording->agent_count; ++i) {
             const ff_track *track = ff_recording_track(recording, step, i);
             if (!track->present) continue;
-            ff_text_add(&text, "%.3f,%u,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f,%.3f,%d\n", step * recording->step, i,
-                        track->position.b, track->position.a, (double)track->heading, (double)track->speed,
-                        agents[i].goal.b, agents[i].goal.a, agents[i].radius, track->reached);
+            ff_text_add(&text, "%.3f,%u,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f,%.3f,%d\n",
+                        recording->start + step * recording->step, i, track->position.b, track->position.a,
+                        (double)track->heading, (double)track->speed, agents[i].goal.b, agents[i].goal.a,
+                        agents[i].radius, track->reached);
         }
     }
     return ff_text_write(&text, path, error);

@@ -3,6 +3,7 @@
 #include "runtime/core/base/fail.h"
 #include "runtime/export/film_crowd.h"
 #include "runtime/export/film_walk.h"
+#include "runtime/export/watch.h"
 
 #include <stdio.h>
 
@@ -27,13 +28,9 @@ typedef struct film {
 
 static void draw_title(const film *f)
 {
-    const ff_recording *recording = f->recording;
-    uint32_t last = recording->step_count - 1, reached = 0;
-    for (uint32_t i = 0; i < recording->agent_count; ++i)
-        reached += ff_recording_track(recording, last, i)->reached;
-    char text[160];
-    snprintf(text, sizeof text, "%u agents, %u reached their goals in %.1f s. Ground tiles are %.0f m.",
-             recording->agent_count, reached, last * recording->step, ff_film_crowd_tile(recording));
+    char caption[160], text[200];
+    ff_watch_caption(f->scene, f->recording, caption, sizeof caption);
+    snprintf(text, sizeof text, "%s. Ground tiles are %.0f m.", caption, ff_film_crowd_tile(f->recording));
     const char *title = f->scene->title[0] ? f->scene->title : ff_scene_kind_name(f->scene->kind);
     ff_picture_text(f->picture, (ff_pixel){MARGIN, 56}, 24, FF_ALIGN_LEFT, ink, title);
     ff_picture_text(f->picture, (ff_pixel){MARGIN, 88}, 14, FF_ALIGN_LEFT, grey, text);

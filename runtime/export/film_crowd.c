@@ -20,8 +20,10 @@ static void bounds(const ff_recording *recording, ff_vec3 *low, ff_vec3 *high)
     *low = ff_v3(1e9, 0.0, 1e9);
     *high = ff_v3(-1e9, HEAD_ROOM, -1e9);
     for (uint32_t k = 0; k < recording->step_count; k += 5)
-        for (uint32_t i = 0; i < recording->agent_count; ++i)
-            include(low, high, ff_recording_track(recording, k, i)->position);
+        for (uint32_t i = 0; i < recording->agent_count; ++i) {
+            const ff_track *track = ff_recording_track(recording, k, i);
+            if (track->present) include(low, high, track->position);
+        }
 }
 
 /* Of those present at one step; somewhat larger than a single person. */

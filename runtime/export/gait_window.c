@@ -26,12 +26,12 @@ static bool plants(const ff_recording *recording, uint32_t agent, uint32_t step)
 
 ff_gait_window ff_gait_window_find(const ff_recording *recording, uint32_t agent)
 {
-    uint32_t onset[3] = {0}, count = 0, end = 0;
-    ff_gait_window best = {0, recording->step_count - 1, false};
+    uint32_t onset[3] = {0}, count = 0;
+    ff_span there = ff_recording_span(recording, agent);
+    uint32_t end = there.end;
+    ff_gait_window best = {there.first, end > 0 ? end - 1 : 0, false};
     double most = -1e9;
-    while (end < recording->step_count && ff_recording_track(recording, end, agent)->present)
-        ++end;
-    for (uint32_t k = 1; k < end; ++k) {
+    for (uint32_t k = there.first + 1; k < end; ++k) {
         if (!plants(recording, agent, k)) continue;
         onset[0] = onset[1];
         onset[1] = onset[2];
@@ -45,7 +45,7 @@ ff_gait_window ff_gait_window_find(const ff_recording *recording, uint32_t agent
         }
     }
     uint32_t span = (uint32_t)(FALLBACK / recording->step);
-    for (uint32_t k = 0; !best.cycles && k + span < end; ++k) {
+    for (uint32_t k = there.first; !best.cycles && k + span < end; ++k) {
         double value = score(recording, agent, k, k + span);
         if (value > most) {
             most = value;

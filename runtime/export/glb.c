@@ -27,7 +27,9 @@ static void ground_bounds(const writer *w, ff_vec2 *low, ff_vec2 *high)
     *high = ff_v2(-1e9, -1e9);
     for (uint32_t k = 0; k < w->recording->step_count; ++k)
         for (uint32_t i = 0; i < w->recording->agent_count; ++i) {
-            ff_vec2 p = ff_recording_track(w->recording, k, i)->position;
+            const ff_track *track = ff_recording_track(w->recording, k, i);
+            if (!track->present) continue;
+            ff_vec2 p = track->position;
             *low = ff_v2(ff_min(low->a, p.a - GROUND_MARGIN), ff_min(low->b, p.b - GROUND_MARGIN));
             *high = ff_v2(ff_max(high->a, p.a + GROUND_MARGIN), ff_max(high->b, p.b + GROUND_MARGIN));
         }
@@ -81,20 +83,28 @@ static void add_rotations(const writer *w, uint32_t agent, const int *nodes)
     }
 }
 
-/* An agent that leaves the scene shrinks to nothing from one key to the next. */
+/* An agent that leaves the scene shrinks to nothing from one key to the next, and one that comes later is nothing before. */
 static void add_leaving(const writer *w, uint32_t agent, int hips)
 {
-    uint32_t last = w->recording->step_count - 1, gone = 0;
-    if (ff_recording_track(w->recording, last, agent)->present) return;
-    while (ff_recording_track(w->recording, gone, agent)->present)
-        ++gone;
-    float times[2] = {0.0f, (float)(gone * w->recording->step)};
-    const float scales[2][3] = {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}};
-    double low = 0.0, high = (double)times[1];
-    int time_view = ff_glb_add_view(w->model, times, sizeof times, 0, FF_GLB_DATA);
-    int scale_view = ff_glb_add_view(w->model, scales, sizeof scales, 0, FF_GLB_DATA);
-    int time = ff_glb_add_accessor(w->model, time_view, 0, FF_GLB_F32, 0, 1, 2, &low, &high);
-    int scale = ff_glb_add_accessor(w->model, scale_view, 0, FF_GLB_F32, 0, 3, 2, NULL, NULL);
+    const float one[3] = {1.0f, 1.0f, 1.0f}, nothing[3] = {0.0f, 0.0f, 0.0f};
+    ff_span there = ff_recording_span(w->recording, agent);
+    if (there.first == 0 && there.end == w->recording->step_count) return;
+    float times[3] = {0.0f}, scales[3][3];
+    uint32_t keys = 1;
+    memcpy(scales[0], there.first == 0 && there.end > 0 ? one : nothing, sizeof one);
+    if (there.first > 0) {
+        times[keys] = (float)(there.first * w->recording->step);
+        memcpy(scales[keys++], one, sizeof one);
+    }
+    if (there.end > 0 && there.end < w->recording->step_count) {
+        times[keys] = (float)(there.end * w->recording->step);
+        memcpy(scales[keys++], nothing, sizeof nothing);
+    }
+    double low = 0.0, high = (double)times[keys - 1];
+    int time_view = ff_glb_add_view(w->model, times, keys * sizeof *times, 0, FF_GLB_DATA);
+    int scale_view = ff_glb_add_view(w->model, scales, keys * sizeof *scales, 0, FF_GLB_DATA);
+    int time = ff_glb_add_accessor(w->model, time_view, 0, FF_GLB_F32, 0, 1, keys, &low, &high);
+    int scale = ff_glb_add_accessor(w->model, scale_view, 0, FF_GLB_F32, 0, 3, keys, NULL, NULL);
     ff_glb_add_channel(w->model, w->animation, hips, FF_GLB_SCALE, time, scale, 1);
 }
 
@@ -133,7 +143,7 @@ static ff_status build(writer *w, ff_error *error)
     w->animation = ff_glb_add_animation(w->model, "crowd");
     w->times = add_times(w);
     for (uint32_t i = 0; i < w->recording->agent_count; ++i)
-        add_agent(w, i);
+        if (ff_recording_is_posed(w->recording, i)) add_agent(w, i);
     return status;
 }
 

@@ -8,6 +8,10 @@ static ff_colour shirt(const ff_scene *scene, uint32_t agent)
 {
     static const double group_hue[4] = {0.02, 0.58, 0.12, 0.36};
     uint32_t group = ff_scene_agents(scene)[agent].group;
+    if (scene->groups == 1) { /* nobody to tell apart: many colours */
+        uint32_t one = (uint32_t)(ff_random_at(11, 0, agent) % HUES);
+        return ff_colour_hsv((double)one / HUES, 0.55, one % 2 ? 0.90 : 0.72);
+    }
     if (scene->groups <= 4) {
         double shift = ((int)(agent % 5) - 2) * 0.012, light = 0.86 - 0.05 * (double)(agent % 3);
         return ff_colour_hsv(group_hue[group % 4] + shift, 0.72, light);

@@ -10,15 +10,6 @@
 #define STILL 0.15       /* m/s */
 #define ROUTE_MARGIN 1.5 /* m before the goal (navigation study, section 2) */
 
-/* Steps [0, count) in which the agent was there. */
-static uint32_t present_steps(const ff_recording *recording, uint32_t agent)
-{
-    uint32_t count = 0;
-    while (count < recording->step_count && ff_recording_track(recording, count, agent)->present)
-        ++count;
-    return count;
-}
-
 typedef struct mean {
     double sum;
     uint64_t terms;
@@ -37,11 +28,11 @@ static ff_status take_accelerations(const ff_watch *watch, const ff_recording *r
     ff_vec2 *points = ff_calloc(recording->step_count, sizeof *points);
     if (!points) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for a path");
     for (uint32_t i = 0; i < recording->agent_count; ++i) {
-        uint32_t count = present_steps(recording, i), first = (uint32_t)(ROUTE_START / recording->step),
-                 end = 0;
+        ff_span there = ff_recording_span(recording, i);
+        uint32_t count = there.end - there.first, first = (uint32_t)(ROUTE_START / recording->step), end = 0;
         ff_vec2 goal = ff_scene_agents(watch->scene)[i].goal;
         for (uint32_t k = 0; k < count; ++k) {
-            points[k] = ff_recording_track(recording, k, i)->position;
+            points[k] = ff_recording_track(recording, there.first + k, i)->position;
             if (end == k && ff_length2(ff_sub2(goal, points[k])) > ROUTE_MARGIN) end = k + 1;
         }
         ff_acceleration_add(points, count, 1, recording->step, 0.0, &raw.sum, &raw.terms);

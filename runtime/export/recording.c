@@ -90,8 +90,28 @@ static int16_t quantise(double value)
     return (int16_t)floor(ff_clamp(value, -1.0, 1.0) * 32767.0 + 0.5);
 }
 
+bool ff_recording_is_posed(const ff_recording *recording, uint32_t agent)
+{
+    if (recording->pose_count == 0) return false;
+    const int16_t *raw = ff_recording_raw_rotations(recording, recording->pose_count - 1, agent)[0];
+    return raw[0] || raw[1] || raw[2] || raw[3];
+}
+
+static void copy_back(ff_recording *recording, uint32_t agent)
+{
+    size_t joints = recording->joint_count, many = recording->agent_count, last = recording->pose_count - 1;
+    float(*hips)[3] = recording->hips.data;
+    int16_t(*rotations)[4] = recording->rotations.data;
+    for (size_t pose = 0; pose < last; ++pose) {
+        memcpy(hips[pose * many + agent], hips[last * many + agent], sizeof *hips);
+        memcpy(rotations[(pose * many + agent) * joints], rotations[(last * many + agent) * joints],
+               joints * sizeof *rotations);
+    }
+}
+
 void ff_recording_set_pose(ff_recording *recording, uint32_t agent, ff_vec3 hips, const ff_quat *rotations)
 {
+    bool first = !ff_recording_is_posed(recording, agent);
     size_t index = (size_t)(recording->pose_count - 1) * recording->agent_count + agent;
     float(*place)[3] = recording->hips.data;
     place[index][0] = (float)hips.x;
@@ -111,6 +131,49 @@ void ff_recording_set_pose(ff_recording *recording, uint32_t agent, ff_vec3 hips
         raw[j][2] = quantise(q.z * sign);
         raw[j][3] = quantise(q.w * sign);
     }
+    if (first) copy_back(recording, agent);
+}
+
+void ff_recording_end(ff_recording *recording)
+{
+    if (recording->step_count < 2) return;
+    ff_track *now =
+        (ff_track *)recording->tracks.data + (size_t)(recording->step_count - 1) * recording->agent_count;
+    const ff_track *before = now - recording->agent_count;
+    for (uint32_t i = 0; i < recording->agent_count; ++i)
+        if (before[i].present && !now[i].present) now[i].reached = 1;
+}
+
+/* Keep the first `few` of every `many` elements. */
+static void thin_out(ff_array *array, size_t size, size_t many, size_t few)
+{
+    size_t rows = array->count / many;
+    unsigned char *data = array->data;
+    for (size_t row = 1; row < rows; ++row)
+        memmove(data + row * few * size, data + row * many * size, few * size);
+    array->count = rows * few;
+}
+
+void ff_recording_trim(ff_recording *recording, uint32_t agents)
+{
+    size_t many = recording->agent_count, joints = recording->joint_count;
+    if (agents == 0 || agents >= many) return;
+    thin_out(&recording->tracks, sizeof(ff_track), many, agents);
+    thin_out(&recording->hips, sizeof(float[3]), many, agents);
+    thin_out(&recording->rotations, sizeof(int16_t[4]), many * joints, agents * joints);
+    recording->agent_count = agents;
+}
+
+ff_span ff_recording_span(const ff_recording *recording, uint32_t agent)
+{
+    ff_span span = {0, 0};
+    while (span.first < recording->step_count && !ff_recording_track(recording, span.first, agent)->present)
+        ++span.first;
+    if (span.first == recording->step_count) return (ff_span){0, 0};
+    span.end = span.first;
+    while (span.end < recording->step_count && ff_recording_track(recording, span.end, agent)->present)
+        ++span.end;
+    return span;
 }
 
 const ff_track *ff_recording_track(const ff_recording *recording, uint32_t step, uint32_t agent)

@@ -20,6 +20,7 @@ typedef struct ff_track {
 typedef struct ff_recording {
     uint32_t agent_count, joint_count;
     double step;          /* s between tracks */
+    double start;         /* s, of the first track in the scene's time: 0, unless a saved crowd went on */
     uint32_t pose_stride; /* steps between poses; 0 = none are kept */
     uint32_t step_count;  /* tracks taken; the first is the start, time 0 */
     uint32_t pose_count;
@@ -38,7 +39,22 @@ void ff_recording_free(ff_recording *recording);
 ff_status ff_recording_begin(ff_recording *recording, ff_error *error);
 void ff_recording_set_track(ff_recording *recording, uint32_t agent, const ff_agent_state *state);
 bool ff_recording_wants_pose(const ff_recording *recording); /* of the step just begun */
+/* Of one who has just come also for the poses before, in which it is not there. */
 void ff_recording_set_pose(ff_recording *recording, uint32_t agent, ff_vec3 hips, const ff_quat *rotations);
+
+/* The step's last call: who was there in the one before and is not now has left, and so has reached its goal. */
+void ff_recording_end(ff_recording *recording);
+/* Drop all rows but the first agents. */
+void ff_recording_trim(ff_recording *recording, uint32_t agents);
+
+/* The steps [first, end) in which an agent is there; {0, 0}: never. Each comes once and goes once. */
+typedef struct ff_span {
+    uint32_t first, end;
+} ff_span;
+ff_span ff_recording_span(const ff_recording *recording, uint32_t agent);
+
+/* Whether any pose was kept of an agent. */
+bool ff_recording_is_posed(const ff_recording *recording, uint32_t agent);
 
 const ff_track *ff_recording_track(const ff_recording *recording, uint32_t step, uint32_t agent);
 void ff_recording_pose(const ff_recording *recording, uint32_t pose, uint32_t agent, ff_vec3 *hips,

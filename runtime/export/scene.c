@@ -19,7 +19,8 @@ const char *ff_scene_kind_name(ff_scene_kind kind)
 
 #define COMMON_KEYS                                                                                          \
     "kind", "title", "seconds", "step", "seed", "at_goal", "agents", "agent_radius", "preferred_speed",      \
-        "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "synthesis", "mcn", "baseline"
+        "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "synthesis", "mcn", "baseline",   \
+        "goals", "regions", "signals", "variables", "behaviours", "behaviour", "groups", "spawners"
 
 static const char *const circle_keys[] = {COMMON_KEYS, "radius", "jitter", NULL};
 static const char *const two_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "distance", NULL};
@@ -29,8 +30,9 @@ static const char *const four_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "s
 static const char *const custom_keys[] = {COMMON_KEYS, NULL};
 static const char *const *const kind_keys[FF_SCENE_KIND_COUNT] = {
     circle_keys, two_way_keys, bidirectional_keys, four_way_keys, custom_keys};
-static const char *const agent_keys[] = {"position", "goal",       "heading_degrees", "preferred_speed",
-                                         "radius",   "navigation", "synthesis",       NULL};
+static const char *const agent_keys[] = {"position",        "goal",      "heading_degrees",
+                                         "preferred_speed", "radius",    "navigation",
+                                         "synthesis",       "behaviour", NULL};
 
 static ff_status read_kind(const ff_json *json, ff_scene_def *def, ff_error *error)
 {
@@ -152,10 +154,14 @@ static ff_status read_agent(const ff_json *json, const json_t *object, const ff_
     double degrees = NAN;
     *out = (ff_scene_agent){.preferred_speed = def->preferred_speed,
                             .radius = def->agent_radius,
-                            .goal_tolerance = def->goal_tolerance};
+                            .goal_tolerance = def->goal_tolerance,
+                            .machine = def->machine};
     ff_status status = ff_json_only_keys(json, object, agent_keys, error);
     TRY(read_place(json, object, "position", &out->position, error));
-    TRY(read_place(json, object, "goal", &out->goal, error));
+    TRY(ff_scene_machine_read(json, object, &def->behaviour, &out->machine, error));
+    out->goal = out->position;
+    if (out->machine == FF_NONE || json_object_get(object, "goal"))
+        TRY(read_place(json, object, "goal", &out->goal, error));
     TRY(ff_json_number(json, object, "heading_degrees", -360.0, 360.0, &degrees, error));
     TRY(ff_json_number(json, object, "preferred_speed", 0.1, 5.0, &out->preferred_speed, error));
     TRY(ff_json_number(json, object, "radius", 0.1, 1.0, &out->radius, error));
@@ -170,10 +176,12 @@ static ff_status read_fixed(const ff_json *json, ff_scene_def *def, ff_error *er
 {
     const json_t *agents = json_object_get(json->root, "agents");
     size_t count = json_array_size(agents);
+    bool others = def->crowds.count + def->behaviour.spawners.count > 0;
+    if (!agents && others) return FF_OK;
     if (!json_is_array(agents) || count == 0 || count > AGENTS_MOST)
         return ff_json_fail(json, agents ? agents : json->root, error,
                             "a custom scene needs \"agents\": a list of 1 to %d {\"position\": [x, z], "
-                            "\"goal\": [x, z]}",
+                            "\"goal\": [x, z]}; or \"groups\" or \"spawners\"",
                             AGENTS_MOST);
     for (size_t i = 0; i < count; ++i) {
         ff_scene_agent *agent = ff_array_grow(&def->fixed, 1, sizeof *agent);
@@ -186,6 +194,14 @@ static ff_status read_fixed(const ff_json *json, ff_scene_def *def, ff_error *er
     return FF_OK;
 }
 
+static ff_status read_behaviour(const ff_json *json, ff_scene_def *def, ff_error *error)
+{
+    const ff_scene_usual usual = {def->preferred_speed, def->speed_spread, def->agent_radius};
+    ff_status status = ff_scene_behaviour_read(json, &usual, &def->behaviour, &def->crowds, error);
+    TRY(ff_scene_machine_read(json, json->root, &def->behaviour, &def->machine, error));
+    return status;
+}
+
 static ff_status read_scene(const ff_json *json, ff_scene_def *def, ff_error *error)
 {
     ff_status status = read_kind(json, def, error);
@@ -194,6 +210,7 @@ static ff_status read_scene(const ff_json *json, ff_scene_def *def, ff_error *er
     TRY(ff_scene_navigation_read(json, &def->navigation, error));
     TRY(read_sizes(json, def, error));
     TRY(read_walls(json, def, error));
+    TRY(read_behaviour(json, def, error));
     if (def->kind == FF_SCENE_CUSTOM) TRY(read_fixed(json, def, error));
     return status;
 }
@@ -211,6 +228,7 @@ ff_scene_def ff_scene_def_default(ff_scene_kind kind)
                           .agent_radius = 0.3,
                           .preferred_speed = 1.3,
                           .goal_tolerance = 0.5,
+                          .machine = FF_NONE,
                           .radius = NAN,
                           .spacing = NAN,
                           .jitter = NAN,
@@ -253,5 +271,7 @@ void ff_scene_def_free(ff_scene_def *def)
 {
     ff_array_free(&def->walls);
     ff_array_free(&def->fixed);
+    ff_array_free(&def->crowds);
+    ff_scene_behaviour_free(&def->behaviour);
     memset(def, 0, sizeof *def);
 }

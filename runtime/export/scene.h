@@ -3,6 +3,7 @@
 #define FF_SCENE_H
 
 #include "runtime/core/base/memory.h"
+#include "runtime/export/scene_behaviour.h"
 #include "runtime/tool/json.h"
 
 typedef enum ff_scene_kind {
@@ -21,6 +22,7 @@ typedef struct ff_scene_agent {
     double radius;          /* m */
     double goal_tolerance;  /* m */
     uint32_t group;         /* which block it starts in; on the circle its own number */
+    uint32_t machine;       /* that it follows; FF_NONE: it goes to its goal */
     ff_navigation navigation;
     ff_synthesis synthesis;
 } ff_scene_agent;
@@ -49,8 +51,11 @@ typedef struct ff_scene_def {
     int64_t agents;
     double agent_radius, preferred_speed, speed_spread, goal_tolerance;
     double radius, spacing, jitter, distance, square, corridor_width, corridor_length;
-    ff_array walls; /* ff_scene_wall */
-    ff_array fixed; /* ff_scene_agent, of a custom scene */
+    ff_array walls;   /* ff_scene_wall */
+    ff_array fixed;   /* ff_scene_agent, of a custom scene */
+    ff_array crowds;  /* ff_scene_group */
+    uint32_t machine; /* of the agents of a layout; FF_NONE */
+    ff_scene_behaviour behaviour;
 } ff_scene_def;
 
 typedef struct ff_scene {
@@ -60,9 +65,12 @@ typedef struct ff_scene {
     uint64_t seed;
     bool leave;
     ff_scene_navigation navigation;
-    ff_array agents; /* ff_scene_agent */
+    ff_array agents; /* ff_scene_agent: of the start; spawners add to it while the scene runs */
     ff_array walls;  /* ff_scene_wall */
+    ff_scene_behaviour behaviour;
     uint32_t groups;
+    uint32_t most;         /* people at a time */
+    uint32_t most_numbers; /* people in all */
 } ff_scene;
 
 const char *ff_scene_kind_name(ff_scene_kind kind); /* as in files: "two_way" */
@@ -87,6 +95,20 @@ ff_status ff_scene_method_read(const ff_json *json, const json_t *object, ff_nav
                                ff_error *error);
 ff_status ff_scene_synthesis_read(const ff_json *json, const json_t *object, ff_synthesis *out,
                                   ff_error *error);
+
+/* Whether people do something there beside going to their goals. */
+static inline bool ff_scene_has_behaviour(const ff_scene *scene)
+{
+    return scene->behaviour.machines.count > 0;
+}
+
+/* The groups of a scene that its kind has been placed in, and the counts of people (scene_people.c). */
+ff_status ff_scene_place_people(const ff_scene_def *def, ff_scene *scene, ff_error *error);
+
+/* Somebody has come in: the row that tells of them. Rows are numbered as ff_agent_state.number is; one that has no radius
+ * tells of nobody yet. */
+ff_status ff_scene_add_spawned(ff_scene *scene, const ff_agent_state *state, uint32_t spawner,
+                               ff_error *error);
 
 /* Place everyone. Fails when two agents would start inside each other. */
 ff_status ff_scene_create(const ff_scene_def *def, ff_scene *out, ff_error *error);

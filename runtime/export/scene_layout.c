@@ -27,7 +27,8 @@ static ff_status add_agent(const ff_scene_def *def, ff_scene *scene, ff_vec2 pos
                               .preferred_speed = ff_max(0.3, def->preferred_speed + offset),
                               .radius = def->agent_radius,
                               .goal_tolerance = def->goal_tolerance,
-                              .group = group};
+                              .group = group,
+                              .machine = def->machine};
     return FF_OK;
 }
 
@@ -153,6 +154,7 @@ static ff_status place_four_way(const ff_scene_def *def, ff_scene *scene, ff_err
 
 static ff_status place_fixed(const ff_scene_def *def, ff_scene *scene, ff_error *error)
 {
+    if (def->fixed.count == 0) return FF_OK;
     ff_scene_agent *agents = ff_array_grow(&scene->agents, def->fixed.count, sizeof *agents);
     if (!agents) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %zu agents", def->fixed.count);
     memcpy(agents, def->fixed.data, def->fixed.count * sizeof *agents);
@@ -191,22 +193,18 @@ ff_status ff_scene_create(const ff_scene_def *def, ff_scene *out, ff_error *erro
     ff_status status = FF_OK;
     for (size_t i = 0; i < def->walls.count && status == FF_OK; ++i)
         status = add_wall(out, walls[i].p, walls[i].q, error);
+    if (status == FF_OK) status = ff_scene_behaviour_copy(&def->behaviour, &out->behaviour, error);
     if (status == FF_OK) status = place[def->kind](def, out, error);
+    if (status == FF_OK) status = ff_scene_place_people(def, out, error);
     if (status == FF_OK) status = check_apart(out, error);
-    if (status != FF_OK) {
-        ff_scene_free(out);
-        return status;
-    }
-    for (size_t i = 0; i < out->agents.count; ++i) {
-        uint32_t group = ff_scene_agents(out)[i].group;
-        out->groups = group >= out->groups ? group + 1 : out->groups;
-    }
-    return FF_OK;
+    if (status != FF_OK) ff_scene_free(out);
+    return status;
 }
 
 void ff_scene_free(ff_scene *scene)
 {
     ff_array_free(&scene->agents);
     ff_array_free(&scene->walls);
+    ff_scene_behaviour_free(&scene->behaviour);
     memset(scene, 0, sizeof *scene);
 }

@@ -3,6 +3,7 @@
 #include "runtime/core/base/fail.h"
 #include "runtime/export/look.h"
 #include "runtime/export/picture.h"
+#include "runtime/export/watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,8 +40,9 @@ static map fit(const ff_scene *scene, const ff_recording *recording)
 {
     map m = {ff_v2(1e9, 1e9), ff_v2(-1e9, -1e9), 1.0, false};
     for (uint32_t i = 0; i < ff_scene_agent_count(scene); ++i) {
-        include(&m, ff_scene_agents(scene)[i].goal);
-        for (uint32_t k = 0; k < recording->step_count; ++k)
+        ff_span there = ff_recording_span(recording, i);
+        if (there.end > 0) include(&m, ff_scene_agents(scene)[i].goal);
+        for (uint32_t k = there.first; k < there.end; ++k)
             include(&m, ff_recording_track(recording, k, i)->position);
     }
     for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i) {
@@ -97,7 +99,8 @@ static void draw_marks(ff_picture *picture, const map *m, const ff_scene *scene,
     ff_colour colour = ff_look_of(scene, agent).cover[FF_COVER_SHIRT];
     const ff_scene_agent *who = &ff_scene_agents(scene)[agent];
     double size = ff_clamp(0.16 * m->scale, 4.0, 11.0);
-    ff_picture_ring(picture, to_pixel(m, who->goal), size, 2.0, colour);
+    if (who->radius <= 0.0) return; /* nobody */
+    if (who->machine == FF_NONE) ff_picture_ring(picture, to_pixel(m, who->goal), size, 2.0, colour);
     ff_picture_disc(picture, to_pixel(m, who->position), size, colour);
 }
 
@@ -107,11 +110,9 @@ static void draw_path(ff_picture *picture, const map *m, const ff_scene *scene, 
     ff_colour colour = ff_look_of(scene, agent).cover[FF_COVER_SHIRT];
     uint32_t second = (uint32_t)(1.0 / recording->step + 0.5);
     int count = 0;
-    for (uint32_t k = 0; k < recording->step_count; ++k) {
-        const ff_track *track = ff_recording_track(recording, k, agent);
-        if (!track->present) break;
-        points[count++] = to_pixel(m, track->position);
-    }
+    ff_span there = ff_recording_span(recording, agent);
+    for (uint32_t k = there.first; k < there.end; ++k)
+        points[count++] = to_pixel(m, ff_recording_track(recording, k, agent)->position);
     ff_picture_lines(picture, points, count, ff_clamp(0.035 * m->scale, 1.5, 3.0), colour);
     for (int k = (int)second; k < count; k += (int)second)
         ff_picture_disc(picture, points[k], ff_clamp(0.05 * m->scale, 2.2, 4.0), colour);
@@ -119,12 +120,8 @@ static void draw_path(ff_picture *picture, const map *m, const ff_scene *scene, 
 
 static void draw_title(ff_picture *picture, const ff_scene *scene, const ff_recording *recording)
 {
-    uint32_t reached = 0, last = recording->step_count - 1;
-    for (uint32_t i = 0; i < recording->agent_count; ++i)
-        reached += ff_recording_track(recording, last, i)->reached;
     char text[160];
-    snprintf(text, sizeof text, "%u agents, %u reached their goals in %.1f s", recording->agent_count,
-             reached, last * recording->step);
+    ff_watch_caption(scene, recording, text, sizeof text);
     const char *title = scene->title[0] ? scene->title : ff_scene_kind_name(scene->kind);
     ff_picture_text(picture, (ff_pixel){MARGIN, 58}, 24, FF_ALIGN_LEFT, ink, title);
     ff_picture_text(picture, (ff_pixel){MARGIN, 88}, 14, FF_ALIGN_LEFT, grey, text);

@@ -9,7 +9,7 @@
 
 ff_status ff_watch_create(const ff_scene *scene, const ff_figure *figure, ff_watch *out, ff_error *error)
 {
-    uint32_t agents = ff_scene_agent_count(scene);
+    uint32_t agents = scene->most_numbers;
     memset(out, 0, sizeof *out);
     out->scene = scene;
     out->least_dot = 1.0;
@@ -27,8 +27,6 @@ ff_status ff_watch_create(const ff_scene *scene, const ff_figure *figure, ff_wat
         ff_watch_free(out);
         return status;
     }
-    for (uint32_t i = 0; i < agents; ++i)
-        out->radii[i] = ff_scene_agents(scene)[i].radius;
     out->rest_height[0] = figure->rest[FF_JOINT_BALL_L].y;
     out->rest_height[1] = figure->rest[FF_JOINT_BALL_R].y;
     return FF_OK;
@@ -71,6 +69,7 @@ ff_status ff_watch_pose(ff_watch *watch, const ff_figure *figure, uint32_t agent
     static const int ball[2] = {FF_JOINT_BALL_L, FF_JOINT_BALL_R};
     ff_vec3 places[FF_FIGURE_MAX_JOINTS];
     ff_figure_place(figure, hips, rotations, places, NULL);
+    watch->radii[agent] = state->radius;
     watch->contacts.bodies[agent] = ff_cylinders_of(places);
     follow_joints(watch, agent, rotations);
     for (int foot = 0; foot < 2; ++foot) {
@@ -89,6 +88,18 @@ uint32_t ff_watch_reached(const ff_recording *recording)
     return reached;
 }
 
+void ff_watch_caption(const ff_scene *scene, const ff_recording *recording, char *text, size_t size)
+{
+    double seconds = (recording->step_count - 1) * recording->step;
+    uint32_t reached = ff_watch_reached(recording);
+    if (ff_scene_has_behaviour(scene))
+        snprintf(text, size, "%u people, %u of whom left, in %.1f s", recording->agent_count, reached,
+                 seconds);
+    else
+        snprintf(text, size, "%u agents, %u reached their goals in %.1f s", recording->agent_count, reached,
+                 seconds);
+}
+
 static json_t *report_slides(const ff_slides *slides)
 {
     return json_pack("{s:f,s:f,s:f,s:I}", "median", 100.0 * slides->median, "p95", 100.0 * slides->p95, "max",
@@ -99,9 +110,10 @@ static json_t *report_times(const ff_watch *watch, const ff_run_facts *facts)
 {
     double scale = watch->collisions.agent_steps ? 1e6 / (double)watch->collisions.agent_steps : 0.0;
     const ff_crowd_timings *spent = &facts->timings;
-    return json_pack("{s:f,s:f,s:f,s:f,s:f}", "total", spent->total * scale, "neighbours",
-                     (spent->snapshot + spent->neighbours) * scale, "navigation", spent->navigation * scale,
-                     "bodies", spent->bodies * scale, "synthesis", spent->synthesis * scale);
+    return json_pack("{s:f,s:f,s:f,s:f,s:f,s:f}", "total", spent->total * scale, "behaviour",
+                     spent->behaviour * scale, "neighbours", (spent->snapshot + spent->neighbours) * scale,
+                     "navigation", spent->navigation * scale, "bodies", spent->bodies * scale, "synthesis",
+                     spent->synthesis * scale);
 }
 
 static json_t *report_synthesis(const ff_watch *watch, const ff_synthesis_counts *counts)
@@ -122,14 +134,17 @@ json_t *ff_watch_report(ff_watch *watch, const ff_recording *recording, const ff
     ff_measures m;
     if (ff_measures_take(watch, recording, &m, NULL) != FF_OK) return NULL;
     return json_pack(
-        "{s:s,s:s,s:s,s:s,s:s,s:I,s:I,s:I,s:I,s:f,s:f,s:I,s:{s:f,s:f},s:f,s:{s:f,s:f,s:f},s:I,s:f,s:I,s:f,s:"
+        "{s:s,s:s,s:s,s:s,s:s,s:I,s:I,s:I,s:I,s:{s:I,s:I,s:I},s:f,s:f,s:f,s:I,s:{s:f,s:f},s:f,s:{s:f,s:f,s:f}"
+        ",s:I,s:f,s:I,s:f,s:"
         "o,"
         "s:o,s:f,s:f,s:o,s:o,s:s}",
         "version", FF_VERSION, "scene", facts->scene_path, "kind", ff_scene_kind_name(watch->scene->kind),
         "navigation", ff_navigation_name(watch->scene->navigation.method), "pack", facts->pack_path, "seed",
         (json_int_t)facts->seed, "threads", (json_int_t)facts->threads, "agents", (json_int_t)m.agents,
-        "reached", (json_int_t)ff_watch_reached(recording), "seconds", steps * recording->step, "step",
-        recording->step, "steps", (json_int_t)steps, "arrival_s", "mean", m.mean_arrival, "last",
+        "reached", (json_int_t)ff_watch_reached(recording), "people", "added",
+        (json_int_t)facts->counts.added, "spawned", (json_int_t)facts->counts.spawned, "left",
+        (json_int_t)facts->counts.left, "start_s", recording->start, "seconds", steps * recording->step,
+        "step", recording->step, "steps", (json_int_t)steps, "arrival_s", "mean", m.mean_arrival, "last",
         m.last_arrival, "collision_rate", m.collision_rate, "mean_acceleration", "raw", m.raw, "filtered",
         m.filtered, "route", m.route, "overlapping_pairs", (json_int_t)m.pairs, "max_penetration_m",
         m.deepest, "touching_bodies", (json_int_t)m.body_pairs, "max_body_penetration_m", m.body_deepest,

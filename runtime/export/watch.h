@@ -24,6 +24,7 @@ typedef struct ff_run_facts {
     const char *scene_path, *pack_path;
     uint32_t threads;
     uint64_t seed, state_hash;
+    ff_crowd_counts counts;
     ff_crowd_timings timings;
     ff_synthesis_counts synthesis;
 } ff_run_facts;
@@ -40,6 +41,9 @@ ff_status ff_watch_pose(ff_watch *watch, const ff_figure *figure, uint32_t agent
 
 /* All figures as JSON; the caller owns the value. NULL when memory is short. Call once, at the end. */
 json_t *ff_watch_report(ff_watch *watch, const ff_recording *recording, const ff_run_facts *facts);
+
+/* "17 agents, 17 reached their goals in 9.2 s", or what there is to say of people who do other things. */
+void ff_watch_caption(const ff_scene *scene, const ff_recording *recording, char *text, size_t size);
 
 /* Agents that are at their goals, or were when they left. */
 uint32_t ff_watch_reached(const ff_recording *recording);

@@ -2,6 +2,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
+#include "runtime/core/base/maths.h"
 #include "runtime/export/bvh.h"
 #include "runtime/export/csv.h"
 #include "runtime/export/film.h"
@@ -18,9 +19,10 @@
 #define CSV_INTERVAL 0.1 /* s */
 
 typedef struct run_options {
-    const char *scene, *pack, *out;
+    const char *scene, *pack, *out, *load, *save;
     int64_t agents, threads, seed; /* 0, 1, -1 = as the scene says */
     double seconds;                /* 0 = as the scene says */
+    double save_at;                /* s; NAN = at the end */
     bool quiet, json;
 } run_options;
 
@@ -114,6 +116,7 @@ static ff_status write_metrics(crowd_run *run, json_t **metrics, ff_error *error
                           .threads = simulation->threads,
                           .seed = run->scene.seed,
                           .state_hash = simulation->state_hash,
+                          .counts = simulation->counts,
                           .timings = simulation->timings,
                           .synthesis = simulation->synthesis};
     char path[4096];
@@ -149,10 +152,16 @@ static double figure_of(const json_t *metrics, const char *group, const char *ke
 
 static void print_summary(const crowd_run *run, const json_t *metrics)
 {
-    printf("%.0f of %.0f agents reached their goals in %.1f s (seed %.0f, state %s)\n",
-           figure_of(metrics, NULL, "reached"), figure_of(metrics, NULL, "agents"),
-           figure_of(metrics, NULL, "seconds"), figure_of(metrics, NULL, "seed"),
-           json_string_value(json_object_get(metrics, "state_hash")));
+    const ff_crowd_counts *counts = &run->simulation.counts;
+    if (ff_scene_has_behaviour(&run->scene))
+        printf("%llu people, %llu of whom came in and %llu left by an exit",
+               (unsigned long long)counts->added, (unsigned long long)counts->spawned,
+               (unsigned long long)counts->left);
+    else
+        printf("%.0f of %.0f agents reached their goals", figure_of(metrics, NULL, "reached"),
+               figure_of(metrics, NULL, "agents"));
+    printf(" in %.1f s (seed %.0f, state %s)\n", figure_of(metrics, NULL, "seconds"),
+           figure_of(metrics, NULL, "seed"), json_string_value(json_object_get(metrics, "state_hash")));
     printf(
         "foot skate %.2f cm per plant in the median, %.2f at the 95th percentile; deepest overlap %.1f cm; "
         "%.1f us per agent and step\n",
@@ -178,6 +187,9 @@ static int run_scene(const run_options *options)
                                          .scene = &run.scene,
                                          .figure = &run.figure,
                                          .threads = (uint32_t)options->threads,
+                                         .load = options->load,
+                                         .save = options->save,
+                                         .save_at = isnan(options->save_at) ? INFINITY : options->save_at,
                                          .quiet = options->quiet};
         status = ff_simulate(&run.simulation, &error);
     }
@@ -196,7 +208,7 @@ static int run_scene(const run_options *options)
 
 int ff_run_main(int argc, char **argv)
 {
-    run_options given = {.agents = 0, .threads = 1, .seed = -1};
+    run_options given = {.agents = 0, .threads = 1, .seed = -1, .save_at = NAN};
     ff_option options[] = {
         {.name = "--pack", .alias = "-p", .value_name = "FILE", .help = "motion pack", .text = &given.pack},
         {.name = "--out",
@@ -228,6 +240,20 @@ int ff_run_main(int argc, char **argv)
          .integer = &given.seed,
          .low = 0,
          .high = 9007199254740992.0},
+        {.name = "--save",
+         .value_name = "FILE",
+         .help = "save the crowd's whole state, to go on from with --load",
+         .text = &given.save},
+        {.name = "--save-at",
+         .value_name = "S",
+         .help = "at this time of the scene (default: at the end)",
+         .number = &given.save_at,
+         .low = 0,
+         .high = 3600},
+        {.name = "--load",
+         .value_name = "FILE",
+         .help = "go on from a saved crowd of this scene; what is written tells of the rest",
+         .text = &given.load},
         {.name = "--quiet", .alias = "-q", .help = "print errors only", .flag = &given.quiet},
         {.name = "--json", .help = "print the metrics and the files' names as JSON", .flag = &given.json},
         {0}};
@@ -246,6 +272,8 @@ int ff_run_main(int argc, char **argv)
         if (!given.pack || !given.out) {
             status =
                 ff_command_misuse(&command, "%s is missing", given.pack ? "--out FOLDER" : "--pack FILE");
+        } else if (!isnan(given.save_at) && !given.save) {
+            status = ff_command_misuse(&command, "--save-at needs --save FILE");
         } else {
             status = run_scene(&given);
         }

@@ -14,13 +14,13 @@ at_most() { # KEY LIMIT
     return 1
 }
 
-scene_runs() { # NAME AGENTS
+scene_runs() { # NAME AGENTS [WORD]
     scene=$1
     run 0 "$crowd" run "runtime/scenes/$scene.json" --pack "$builtin" --out "$work/$scene" --seconds 2 && silent err || {
         # progress is on standard error where there is no terminal
         grep -v '^walking\|^writing' "$work/err" && return 1
     }
-    says out "$2 agents" || return 1
+    says out "$2 ${3:-agents}" || return 1
     for file in $files; do
         [ -s "$work/$scene/$file" ] || { echo "$scene/$file is missing or empty" && return 1; }
         says out "$work/$scene/$file" || return 1
@@ -57,6 +57,12 @@ the_example_of_the_readme_runs() {
     awk '/^```/ && inside { exit } inside { print } /^```json$/ { inside = 1 }' runtime/scenes/README.md >"$work/readme.json"
     run 0 "$crowd" run "$work/readme.json" --pack "$builtin" --out "$work/readme" --seconds 1 --quiet && silent err
 }
+the_behaviour_of_the_readme_runs() {
+    # The block that says all its keys, without comments.
+    awk '/^### Behaviour/ { wanted = 1 } /^```$/ && inside { exit } inside { sub(/ *\/\/.*$/, ""); print }
+        wanted && /^```jsonc$/ { inside = 1 }' runtime/scenes/README.md | sed '1s/{/{"kind": "custom", "seconds": 1,/' >"$work/behaviour.json"
+    run 0 "$crowd" run "$work/behaviour.json" --pack "$builtin" --out "$work/behaviour" --quiet && silent err
+}
 a_scene_of_kilometres_is_drawn() {
     printf '{"kind": "custom", "agents": [{"position": [0, 0], "goal": [0, 4000]}, {"position": [9000, 0], "goal": [0, 0]}]}' >"$work/far.json"
     run 0 "$crowd" run "$work/far.json" --pack "$builtin" --out "$work/far" --seconds 1 --quiet && silent err
@@ -83,6 +89,8 @@ test_that "the circle runs" scene_runs circle 17
 test_that "the two-way crossflow runs" scene_runs two-way 30
 test_that "the bidirectional flow runs" scene_runs bidirectional 53
 test_that "the four-way crossflow runs" scene_runs four-way 100
+test_that "the crossing runs" scene_runs crossing 32 people
+test_that "the behaviour of the README runs" the_behaviour_of_the_readme_runs
 test_that "a circle arrives and the run ends" a_circle_arrives_and_the_run_ends
 test_that "people leave where the scene says so" people_leave_where_the_scene_says_so
 test_that "walls are walked round" walls_are_walked_round

@@ -1,0 +1,44 @@
+#include "runtime/export/scene_crowd.h"
+
+ff_crowd_def ff_scene_crowd_def(const ff_scene *scene, ff_behaviour_def *behaviour)
+{
+    ff_crowd_def def = ff_crowd_def_default();
+    def.max_agents = scene->most;
+    def.max_walls = ff_scene_wall_count(scene);
+    def.step = scene->step;
+    def.seed = scene->seed;
+    def.keep_right = scene->navigation.keep_right;
+    def.navigation = scene->navigation.method;
+    def.synthesis = scene->navigation.synthesis;
+    def.mcn = scene->navigation.mcn;
+    def.baseline = scene->navigation.baseline;
+    *behaviour = ff_scene_behaviour_def(&scene->behaviour);
+    if (ff_scene_has_behaviour(scene)) def.behaviour = behaviour;
+    return def;
+}
+
+ff_status ff_scene_populate(const ff_scene *scene, ff_crowd *crowd, ff_error *error)
+{
+    const ff_scene_agent *agents = ff_scene_agents(scene);
+    for (uint32_t i = 0; i < ff_scene_agent_count(scene); ++i) {
+        ff_agent_def def = ff_agent_def_default();
+        ff_agent agent;
+        def.position = agents[i].position;
+        def.heading = agents[i].heading;
+        def.goal = agents[i].goal;
+        def.goal_tolerance = agents[i].goal_tolerance;
+        def.preferred_speed = agents[i].preferred_speed;
+        def.radius = agents[i].radius;
+        def.navigation = agents[i].navigation;
+        def.synthesis = agents[i].synthesis;
+        def.machine = agents[i].machine;
+        ff_status status = ff_crowd_add_agent(crowd, &def, &agent, error);
+        if (status != FF_OK) return status;
+    }
+    const ff_scene_wall *walls = ff_scene_walls(scene);
+    for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i) {
+        ff_status status = ff_crowd_add_wall(crowd, walls[i].p, walls[i].q, error);
+        if (status != FF_OK) return status;
+    }
+    return FF_OK;
+}
