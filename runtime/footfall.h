@@ -662,8 +662,8 @@ ff_status ff_crowd_agent_matrices(const ff_crowd *crowd, ff_agent agent, ff_vec2
 ff_status ff_crowd_matrices(ff_crowd *crowd, ff_vec2 origin, ff_matrix *out, uint32_t capacity,
                             ff_error *error);
 
-/* Seconds spent per phase since creation, summed over steps. Wall clock: for reports only, never part of the
- * state. */
+/* Seconds spent per phase since creation, summed over steps: processor time of the calling thread where a crowd has no
+ * other, else wall clock. For reports only, never part of the state. */
 typedef struct ff_crowd_timings {
     double behaviour;  /* state machines and spawners */
     double snapshot;   /* what everybody shows the others, and who is where */

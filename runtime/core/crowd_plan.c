@@ -269,5 +269,5 @@ double ff_footsteps_plan(ff_crowd *crowd)
     sort_by_slot(f, f->order);
     for (uint32_t i = 0; i < f->job_count; ++i)
         put_in_force(crowd, &f->jobs[f->order[i]], time);
-    return ff_crowd_clock();
+    return ff_crowd_clock(crowd);
 }

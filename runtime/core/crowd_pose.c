@@ -69,12 +69,12 @@ ff_status ff_crowd_matrices(ff_crowd *crowd, ff_vec2 origin, ff_matrix *out, uin
                        crowd->agent_count);
     ff_status status = ff_crowd_check_place(origin, "origin", error);
     if (status != FF_OK) return status;
-    double start = ff_crowd_clock();
+    double start = ff_crowd_clock(crowd);
     uint32_t count = 0;
     for (uint32_t slot = 0; slot < crowd->slot_count; ++slot)
         if (crowd->alive[slot]) crowd->live[count++] = slot;
     matrix_loop loop = {crowd, origin, out};
     ff_crowd_for_chunks(crowd, count, fill_chunk, &loop);
-    crowd->timings.matrices += ff_crowd_clock() - start;
+    crowd->timings.matrices += ff_crowd_clock(crowd) - start;
     return FF_OK;
 }

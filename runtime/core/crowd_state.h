@@ -69,7 +69,9 @@ struct ff_crowd {
 void ff_crowd_for_chunks(ff_crowd *crowd, uint32_t count, void (*run)(void *context, uint32_t chunk),
                          void *context);
 
-double ff_crowd_clock(void); /* s; for reports only */
+/* s: processor time of a crowd on one thread, which others on the machine do not change, else wall clock. For reports
+ * only. */
+double ff_crowd_clock(const ff_crowd *crowd);
 
 /* An error unless the point is within what a crowd can compute with. */
 ff_status ff_crowd_check_place(ff_vec2 p, const char *what, ff_error *error);

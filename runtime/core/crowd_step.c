@@ -11,10 +11,11 @@
 /* s: a low-pass as late as the displacement over 0.25 s (algorithms E, 9), for those who are not told the rates */
 #define SEEN_DELAY 0.125
 
-double ff_crowd_clock(void)
+double ff_crowd_clock(const ff_crowd *crowd)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    bool alone = crowd->def.threads == 1 && !crowd->def.tasks;
+    clock_gettime(alone ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
@@ -49,7 +50,7 @@ static double run_phase(ff_crowd *crowd, void (*agent)(ff_crowd *crowd, uint32_t
 {
     agent_loop loop = {crowd, agent};
     ff_crowd_for_chunks(crowd, crowd->grid.count, run_chunk, &loop);
-    return ff_crowd_clock();
+    return ff_crowd_clock(crowd);
 }
 
 /* ------------------------------------------------------------------------------------------------- phases */
@@ -227,13 +228,13 @@ static void synthesise(ff_crowd *crowd, uint32_t index)
 void ff_crowd_step(ff_crowd *crowd)
 {
     ff_crowd_timings *spent = &crowd->timings;
-    double start = ff_crowd_clock();
+    double start = ff_crowd_clock(crowd);
     if (crowd->behaviour) ff_crowd_behave(crowd);
-    double behaved = ff_crowd_clock();
+    double behaved = ff_crowd_clock(crowd);
     if (crowd->footsteps) ff_footsteps_change(crowd);
     ff_obstacles_step(crowd);
     snapshot(crowd);
-    double seen = ff_crowd_clock();
+    double seen = ff_crowd_clock(crowd);
     double found = run_phase(crowd, find_neighbours);
     double decided = run_phase(crowd, navigate);
     double planned = decided;

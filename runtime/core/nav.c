@@ -43,7 +43,7 @@ static ff_vec2 adapt_to_density(const ff_nav_view *view, ff_vec2 preferred, ff_v
     const ff_grid *grid = view->world->grid;
     ff_vec2 critical = ff_madd2(view->me->position, ahead, FF_DENSITY_AHEAD);
     ff_run runs[FF_GRID_RUNS_MAX];
-    uint32_t run_count = ff_grid_runs(grid, view->me->position, runs);
+    uint32_t run_count = ff_grid_runs(grid, view->me->position, FF_NEIGHBOUR_REACH, runs);
     double rho = 0.0;
     for (uint32_t r = 0; r < run_count; ++r) {
         for (uint32_t i = runs[r].first; i < runs[r].end; ++i) {

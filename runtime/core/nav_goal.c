@@ -124,7 +124,7 @@ static bool meets_somebody(const ff_grid *grid, uint32_t self, ff_vec2 preferred
 {
     const ff_seen *me = &grid->seen[self];
     ff_run runs[FF_GRID_RUNS_MAX];
-    uint32_t run_count = ff_grid_runs(grid, me->position, runs);
+    uint32_t run_count = ff_grid_runs(grid, me->position, FF_NEIGHBOUR_REACH, runs);
     for (uint32_t r = 0; r < run_count; ++r) {
         for (uint32_t i = runs[r].first; i < runs[r].end; ++i) {
             const ff_seen *other = &grid->seen[i];

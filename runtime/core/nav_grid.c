@@ -63,12 +63,13 @@ void ff_grid_fill(ff_grid *grid, const ff_seen *unsorted, uint32_t count)
     start[0] = 0;
 }
 
-uint32_t ff_grid_runs(const ff_grid *grid, ff_vec2 p, ff_run runs[FF_GRID_RUNS_MAX])
+uint32_t ff_grid_runs(const ff_grid *grid, ff_vec2 p, double reach, ff_run runs[FF_GRID_RUNS_MAX])
 {
     uint32_t count = 0;
+    int64_t span = reach <= CELL ? 1 : SPAN;
     int64_t column = cell_of(p.a), row = cell_of(p.b);
-    uint32_t left = wrapped(grid, column - SPAN), right = wrapped(grid, column + SPAN);
-    for (int64_t r = row - SPAN; r <= row + SPAN; ++r) {
+    uint32_t left = wrapped(grid, column - span), right = wrapped(grid, column + span);
+    for (int64_t r = row - span; r <= row + span; ++r) {
         const uint32_t *start = grid->start + (size_t)wrapped(grid, r) * grid->side;
         if (left <= right) {
             runs[count++] = (ff_run){start[left], start[right + 1]};
@@ -130,7 +131,7 @@ uint32_t ff_grid_neighbours(const ff_grid *grid, uint32_t self, double padding,
 {
     ff_vec2 here = grid->seen[self].position;
     ff_run runs[FF_GRID_RUNS_MAX];
-    uint32_t run_count = ff_grid_runs(grid, here, runs), count = 0, near[FILTER];
+    uint32_t run_count = ff_grid_runs(grid, here, FF_NEIGHBOUR_REACH, runs), count = 0, near[FILTER];
     for (uint32_t r = 0; r < run_count; ++r) {
         for (uint32_t i = runs[r].first; i < runs[r].end; i += FILTER) {
             uint32_t end = runs[r].end - i < FILTER ? runs[r].end : i + FILTER;

@@ -43,12 +43,13 @@ bool ff_grid_init(ff_grid *grid, uint32_t capacity, ff_arena *arena);
 /* Sort unsorted[count] into the grid (counting sort: stable, so the order depends on nothing else). */
 void ff_grid_fill(ff_grid *grid, const ff_seen *unsorted, uint32_t count);
 
-/* Runs [first, end) of grid->seen that together hold everybody within FF_NEIGHBOUR_REACH of p, each once. */
+/* Runs [first, end) of grid->seen that together hold everybody within reach (m, at most FF_NEIGHBOUR_REACH) of p, each
+ * once. */
 #define FF_GRID_RUNS_MAX 10
 typedef struct ff_run {
     uint32_t first, end;
 } ff_run;
-uint32_t ff_grid_runs(const ff_grid *grid, ff_vec2 p, ff_run runs[FF_GRID_RUNS_MAX]);
+uint32_t ff_grid_runs(const ff_grid *grid, ff_vec2 p, double reach, ff_run runs[FF_GRID_RUNS_MAX]);
 
 typedef struct ff_neighbour {
     double time;     /* s to collision at present velocities; INFINITY = none */

@@ -35,6 +35,7 @@ ff_vec2 ff_nav_forces(const ff_nav_view *view, double one, double total)
     ff_vec2 sum = ff_force_from_walls(view->walls, view->wall_count, me->position, me->velocity,
                                       me->radius + padding, one);
     for (uint32_t i = 0; i < view->neighbour_count; ++i) {
+        if (view->neighbours[i].time == INFINITY) break; /* nor will those after it be met */
         const ff_seen *other = &view->world->grid->seen[view->neighbours[i].index];
         double reach = me->radius + other->radius + 2.0 * padding;
         ff_vec2 x = ff_sub2(me->position, other->position);

@@ -52,7 +52,7 @@ double ff_choice_density(const ff_grid *grid, uint32_t self)
 {
     ff_vec2 p = grid->seen[self].position;
     ff_run runs[FF_GRID_RUNS_MAX];
-    uint32_t run_count = ff_grid_runs(grid, p, runs);
+    uint32_t run_count = ff_grid_runs(grid, p, REACH, runs);
     double sum = 0.0;
     for (uint32_t r = 0; r < run_count; ++r)
         for (uint32_t i = runs[r].first; i < runs[r].end; ++i) {

@@ -86,14 +86,16 @@ typedef struct step_log {
     double total[MEASURED], phase[PHASES][MEASURED];
 } step_log;
 
+static double median_us(double *seconds, uint32_t count)
+{
+    return 1e6 * ff_quantile(seconds, MEASURED, 0.5) / count;
+}
+
 static ff_load_times times_of(step_log *log, uint32_t count)
 {
-    double phase[PHASES], sum = 0.0, total = 1e6 * ff_quantile(log->total, MEASURED, 0.5) / count;
-    for (int p = 0; p < PHASES; ++p)
-        sum += phase[p] = ff_quantile(log->phase[p], MEASURED, 0.5);
-    double share = sum > 0.0 ? total / sum : 0.0;
-    return (ff_load_times){total, share * phase[NAVIGATION], share * phase[STEPS], share * phase[MATRICES],
-                           share * phase[COUPLING]};
+    return (ff_load_times){median_us(log->total, count), median_us(log->phase[NAVIGATION], count),
+                           median_us(log->phase[STEPS], count), median_us(log->phase[MATRICES], count),
+                           median_us(log->phase[COUPLING], count)};
 }
 
 static ff_status measure_steps(ff_crowd *crowd, uint32_t count, ff_matrix *matrices, ff_load_times *out,
@@ -161,7 +163,7 @@ ff_status ff_circles_measure_detour(uint32_t count, ff_load_times *out, ff_error
         if (i >= WARM) seconds[i - WARM] = cpu_time() - start;
     }
     if (status == FF_OK) {
-        double us = 1e6 * ff_quantile(seconds, MEASURED, 0.5) / count;
+        double us = median_us(seconds, count);
         *out = (ff_load_times){.total = us, .navigation = us};
     }
     ff_detour_destroy(detour);

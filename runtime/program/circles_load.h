@@ -21,7 +21,7 @@ typedef struct ff_circle_place {
 void ff_circle_places(uint32_t count, ff_circle_place *out);
 
 /* Walk everybody to where the circles close up, and measure from there until they meet: the crowd's step and the matrices
- * of all joints on one thread; CPU time, shared out as the phases' wall-clock times are. */
+ * of all joints, in CPU time of one thread. */
 ff_status ff_circles_measure(const ff_pack *pack, ff_navigation method, uint32_t count, ff_load_times *out,
                              ff_error *error);
 
