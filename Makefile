@@ -178,11 +178,13 @@ e2e: test-programs ## only the end-to-end tests, of this config
 house: test-programs ## only the rules of the house: includes, installed tree, commands of the READMEs
 	scripts/run-tests.sh $(addprefix $(B):,$(house))
 walk_soak = $(B)/footfall-crowd bench walk --pack $(B)/builtin.ffpack --seconds $(or $(WALK_SECONDS),3600)
-soak: ## fuzz long: 500,000 runs of every target (FUZZ_RUNS=N); an hour of every way of walking (WALK_SECONDS=N)
+soak: ## fuzz long: 500,000 runs of every target (FUZZ_RUNS=N); an hour of every way of walking (WALK_SECONDS=N); 10,000 steps of every scene
 	scripts/setup.sh
 	+$(MAKE) programs $(B)/builtin.ffpack
 	for way in hybrid semi-procedural; do $(walk_soak) --synthesis $$way || exit 1; done
 	$(walk_soak) --check
+	+$(MAKE) $(B)/tests/export/test_scene_bits
+	FF_SCENE_STEPS=10000 FF_TEST_SECONDS=7200 scripts/run-tests.sh $(B):$(B)/tests/export/test_scene_bits
 	$(build_fuzzers)
 	FF_FUZZ_RUNS=$(or $(FUZZ_RUNS),500000) scripts/run-tests.sh $(run_fuzzers)
 bench: ## measure: every tests/bench/bench_*, one after the other
