@@ -219,7 +219,9 @@ typedef struct ff_plan_goal {
 #define FF_PLAN_WAIT 3.0
 
 typedef struct ff_plan_options {
-    uint32_t nodes; /* how many may be expanded; default 300 */
+    uint32_t nodes;   /* how many may be expanded; default 300 */
+    uint32_t improve; /* of those, how many once there is a plan; default 60 */
+    uint32_t reserved;
     double
         seconds; /* wall clock on top of it; 0 (default) = none, then results depend on the arguments alone */
     uint32_t horizon;      /* actions ahead, default 16, at most 20; 1 = purely reactive */

@@ -64,6 +64,7 @@ typedef struct search {
     float ahead;             /* s: time of enough, or INFINITY */
     uint32_t best, part;     /* the plan so far ends here; else the nearest to the goal, safe */
     float best_cost;
+    uint32_t first_best; /* nodes expanded when there was a plan */
     ff_plan_result result;
     struct timespec begun;
 } search;
@@ -373,6 +374,7 @@ static bool at_goal(const search *s, const node *n)
 
 static bool out_of_budget(const search *s)
 {
+    if (s->best != NONE && s->result.expanded >= s->first_best + s->options.improve) return true;
     if (s->result.expanded >= s->options.nodes || s->result.expanded >= s->memory->nodes_max) return true;
     if (s->count + s->set->next_most + 4 > s->memory->room) return true;
     if (!(s->options.seconds > 0.0) || (s->result.expanded & 7u)) return false;
@@ -420,6 +422,7 @@ static bool look_at(search *s, uint32_t index)
     if ((reached || enough) && is_safe(s, index)) {
         float cost = n->g + (reached ? 0.0f : n->h);
         if (cost < s->best_cost) {
+            if (s->best == NONE) s->first_best = s->result.expanded;
             s->best = index;
             s->best_cost = cost;
             s->result.outcome = reached ? FF_PLAN_REACHED : FF_PLAN_AHEAD;
@@ -667,6 +670,7 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
 ff_plan_options ff_plan_options_default(void)
 {
     return (ff_plan_options){.nodes = 300,
+                             .improve = 60,
                              .horizon = 16,
                              .time_horizon = 5.0,
                              .inflation = 2.0,

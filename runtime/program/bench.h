@@ -11,6 +11,7 @@ int ff_bench_main(int argc, char **argv);
 int ff_bench_table1_main(int argc, char **argv);
 int ff_bench_fig6_main(int argc, char **argv);
 int ff_bench_fig7_main(int argc, char **argv);
+int ff_bench_astar_main(int argc, char **argv);
 int ff_bench_synthesis_main(int argc, char **argv);
 int ff_bench_hybrid_main(int argc, char **argv);
 int ff_bench_walk_main(int argc, char **argv);

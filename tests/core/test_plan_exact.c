@@ -45,7 +45,7 @@ static void make_problem(const plan_world *w, int number, problem *p)
     p->world.track_count = kept;
     p->world.tracks = p->list;
     p->options = ff_plan_options_default();
-    p->options.nodes = 40000;
+    p->options.nodes = p->options.improve = 40000;
     p->options.horizon = DEPTH;
     p->options.time_horizon = 0.0;
     p->options.inflation = 1.0;
