@@ -14,17 +14,23 @@ static ff_vec3 middle(const ff_vec3 *at, int p, int q)
     return ff_lerp3(at[p], at[q], 0.5);
 }
 
+void ff_collider_middles(const ff_vec3 at[FF_BODY_COUNT], ff_vec3 out[FF_COLLIDER_COUNT])
+{
+    out[FF_COLLIDER_HEAD] = middle(at, FF_ROLE_HEAD, FF_ROLE_HEAD_TOP);
+    out[FF_COLLIDER_HAND_L] = middle(at, FF_ROLE_WRIST_L, FF_ROLE_HAND_L);
+    out[FF_COLLIDER_HAND_R] = middle(at, FF_ROLE_WRIST_R, FF_ROLE_HAND_R);
+    out[FF_COLLIDER_FOOT_L] = middle(at, FF_ROLE_ANKLE_L, FF_ROLE_TOE_L);
+    out[FF_COLLIDER_FOOT_R] = middle(at, FF_ROLE_ANKLE_R, FF_ROLE_TOE_R);
+    out[FF_COLLIDER_ROOT] = at[FF_ROLE_HIPS];
+}
+
 /* World places of the colliders in one frame. */
 static void colliders_at(const ff_rig *rig, const ff_motion *motion, int frame,
                          ff_vec3 out[FF_COLLIDER_COUNT])
 {
     ff_vec3 at[FF_BODY_COUNT];
     ff_motion_pose(rig, motion, frame, at, NULL);
-    out[FF_COLLIDER_HEAD] = middle(at, FF_ROLE_HEAD, FF_ROLE_HEAD_TOP);
-    out[FF_COLLIDER_HAND_L] = middle(at, FF_ROLE_WRIST_L, FF_ROLE_HAND_L);
-    out[FF_COLLIDER_HAND_R] = middle(at, FF_ROLE_WRIST_R, FF_ROLE_HAND_R);
-    out[FF_COLLIDER_FOOT_L] = middle(at, FF_ROLE_ANKLE_L, FF_ROLE_TOE_L);
-    out[FF_COLLIDER_FOOT_R] = middle(at, FF_ROLE_ANKLE_R, FF_ROLE_TOE_R);
+    ff_collider_middles(at, out);
     out[FF_COLLIDER_ROOT] =
         ff_ground(ff_v2(motion->root[frame].x, motion->root[frame].y), motion->hips[frame].z);
 }

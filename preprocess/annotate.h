@@ -34,6 +34,9 @@ void ff_action_annotate(const ff_cut_settings *settings, const ff_rig *rig, cons
 void ff_join_read(const ff_rig *rig, const ff_motion *motion, int frame, ff_vec2 origin, double heading,
                   double level, ff_join *out);
 
+/* Where the middles of the colliders are in a posed body; the root's stands on the hips, for want of their ground frame. */
+void ff_collider_middles(const ff_vec3 at[FF_BODY_COUNT], ff_vec3 out[FF_COLLIDER_COUNT]);
+
 /* m, of the cylinders about the colliders. */
 void ff_collider_radii(const ff_collider_settings *settings, double out[FF_COLLIDER_COUNT]);
 

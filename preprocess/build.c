@@ -2,6 +2,7 @@
 #include "preprocess/build.h"
 
 #include "mocap/generator/generator.h"
+#include "preprocess/annotate.h"
 #include "preprocess/build_clip.h"
 #include "preprocess/derive_actions.h"
 #include "preprocess/pack_fill.h"
@@ -293,6 +294,9 @@ static ff_status add_all(build *b, gathered *g, ff_example_set *set, ff_error *e
     if (status == FF_OK)
         status = ff_pack_add_successors(content, &b->settings->pack.successors, b->tasks, error);
     if (status == FF_OK) status = ff_pack_add_reach(content, error);
+    double radii[FF_COLLIDER_COUNT];
+    ff_collider_radii(&b->settings->pack.cut.colliders, radii);
+    if (status == FF_OK) status = ff_pack_set_collider_radii(content, radii, error);
     if (status == FF_OK) status = add_skin(b, error);
     if (status == FF_OK)
         status = ff_pack_add_meta(content, b->settings, g->clips, g->count, b->clips + b->good,

@@ -94,6 +94,12 @@ static void print_coverage(const ff_pack *pack)
     for (uint32_t i = 0; i < pack->action_count; ++i)
         guided += pack->actions[i].reach != FF_REACH_NONE;
     printf("  planners take %u of them by default, guided by %u reach tables\n", guided, pack->reach_count);
+    if (pack->collider_radii) {
+        const float *r = pack->collider_radii;
+        printf("  kept apart: head %.0f, hands %.0f, feet %.0f, hips %.0f cm about their middles\n",
+               100.0 * (double)r[FF_COLLIDER_HEAD], 100.0 * (double)r[FF_COLLIDER_HAND_L],
+               100.0 * (double)r[FF_COLLIDER_FOOT_L], 100.0 * (double)r[FF_COLLIDER_ROOT]);
+    }
     for (int k = 0; k < ff_coverage_kinds(); ++k)
         if (ff_coverage_count(pack, k) == 0) printf("  no %s\n", ff_coverage_words(k));
 }

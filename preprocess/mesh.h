@@ -4,6 +4,7 @@
 
 #include "mocap/skin.h"
 #include "preprocess/motion.h"
+#include "runtime/core/pack_format.h"
 
 enum { FF_MESH_LEVELS = 3 };
 
@@ -28,6 +29,11 @@ typedef struct ff_mesh_faults {
  * the rig's). radius [FF_ROLE_JOINT_COUNT] receives how thick the body is about each bone (m): 90 % of the vertices that
  * hang mostly on it are nearer to it; 0 where there are none. */
 ff_status ff_mesh_fit(const ff_skin *skin, const ff_rig *rig, ff_mesh *out, double *radius, ff_error *error);
+
+/* How far (m) the fitted body reaches about the middles of the colliders (annotate.h): 95 % of the vertices that are mostly a
+ * head's, hand's, foot's or the hips' are within. Left and right alike; 0 where there are none. */
+ff_status ff_mesh_collider_radii(const ff_mesh *mesh, const ff_rig *rig, double out[FF_COLLIDER_COUNT],
+                                 ff_error *error);
 
 /* Leave out what is wrong in place: degenerate and repeated triangles, unused vertices. */
 ff_status ff_mesh_clean(ff_mesh *mesh, ff_mesh_faults *faults, ff_error *error);

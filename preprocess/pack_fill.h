@@ -24,7 +24,12 @@ ff_status ff_pack_add_meta(ff_pack_content *content, const ff_build_settings *se
 ff_status ff_pack_add_gait(ff_pack_content *content, const ff_correspondence_settings *settings,
                            const ff_rig *rig, const ff_example_set *set, ff_tasks *tasks, ff_error *error);
 
-/* A character's surface at three levels of detail, and the thickness of its bones; after the rig. */
+/* How large the colliders are (m), and, from that, the coarse radius of every action; after the clips. */
+ff_status ff_pack_set_collider_radii(ff_pack_content *content, const double radii[FF_COLLIDER_COUNT],
+                                     ff_error *error);
+
+/* A character's surface at three levels of detail, the thickness of its bones and the size of its colliders; after the rig
+ * and the clips. */
 ff_status ff_pack_add_skin(ff_pack_content *content, const ff_skin_settings *settings, const ff_rig *rig,
                            const char *path, const ff_load_options *options, ff_error *error);
 

@@ -80,6 +80,18 @@ static ff_status add_level(ff_pack_content *content, const ff_mesh *mesh, ff_err
     return FF_OK;
 }
 
+/* Parts that the character does not have keep the size they had. */
+static ff_status measure_colliders(ff_pack_content *content, const ff_mesh *mesh, const ff_rig *rig,
+                                   ff_error *error)
+{
+    double radii[FF_COLLIDER_COUNT];
+    ff_status status = ff_mesh_collider_radii(mesh, rig, radii, error);
+    const float *before = content->collider_radii.data;
+    for (int c = 0; c < FF_COLLIDER_COUNT && before; ++c)
+        if (!(radii[c] > 0.0)) radii[c] = (double)before[c];
+    return status == FF_OK ? ff_pack_set_collider_radii(content, radii, error) : status;
+}
+
 ff_status ff_pack_add_skin(ff_pack_content *content, const ff_skin_settings *settings, const ff_rig *rig,
                            const char *path, const ff_load_options *options, ff_error *error)
 {
@@ -90,6 +102,7 @@ ff_status ff_pack_add_skin(ff_pack_content *content, const ff_skin_settings *set
     ff_status status = ff_skin_load(path, options, &skin, error);
     if (status != FF_OK) return status;
     status = ff_mesh_fit(&skin, rig, &mesh, radius, error);
+    if (status == FF_OK) status = measure_colliders(content, &mesh, rig, error);
     if (status == FF_OK) status = ff_mesh_clean(&mesh, &faults, error);
     if (status == FF_OK) status = ff_mesh_levels(settings, &mesh, levels, &faults, error);
     for (int i = 0; i < FF_MESH_LEVELS && status == FF_OK; ++i)

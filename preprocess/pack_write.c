@@ -25,6 +25,7 @@ static const struct section_kind {
     {FF_SECTION_PLANTS, sizeof(ff_pack_plant), offsetof(ff_pack_content, plants)},
     {FF_SECTION_ACTIONS, sizeof(ff_pack_action), offsetof(ff_pack_content, actions)},
     {FF_SECTION_COLLIDERS, sizeof(ff_pack_collider), offsetof(ff_pack_content, colliders)},
+    {FF_SECTION_COLLIDER_RADII, sizeof(float), offsetof(ff_pack_content, collider_radii)},
     {FF_SECTION_EXAMPLES, sizeof(ff_pack_example), offsetof(ff_pack_content, examples)},
     {FF_SECTION_FEET, sizeof(ff_pack_foot), offsetof(ff_pack_content, feet)},
     {FF_SECTION_SIMPLICES, sizeof(ff_pack_simplex), offsetof(ff_pack_content, simplices)},

@@ -9,8 +9,8 @@
  * free. strings and meta are built by ff_pack_add_string and ff_pack_set_meta. */
 typedef struct ff_pack_content {
     ff_array strings, meta, joints, points, streams, slots, lanes, keys, roots, clips, plants, actions,
-        colliders, examples, feet, simplices, hull, tracks, loops, correspondences, pairs, gait, gait_path,
-        sharp, events, successors, reach, skins, vertices, triangles;
+        colliders, collider_radii, examples, feet, simplices, hull, tracks, loops, correspondences, pairs,
+        gait, gait_path, sharp, events, successors, reach, skins, vertices, triangles;
     ff_array joins; /* ff_action_joins of each action, for ff_pack_add_successors; not written */
 } ff_pack_content;
 

@@ -22,7 +22,7 @@ enum {
     EDGE = (CELLS - FF_REACH_CELLS) / 2
 };
 enum { TABLE = FF_REACH_CELLS * FF_REACH_CELLS, FILL_ROUNDS = 12 };
-static const float BUCKET = 0.05f;                                  /* J/kg; no step costs so little */
+static const float BUCKET = 0.05f;          /* J/kg; no step costs so little */
 static const float COVER = FF_REACH_RADIUS; /* m: of the middles of cells that count as reached */
 static const float NEVER = 1e6f;
 

@@ -22,6 +22,7 @@ enum {
     PLANTS,
     ACTIONS,
     COLLIDERS,
+    COLLIDER_RADII,
     EXAMPLES,
     FEET,
     SIMPLICES,
@@ -57,6 +58,7 @@ static const ff_section_kind kinds[KIND_COUNT] = {
     [PLANTS] = {FF_SECTION_PLANTS, sizeof(ff_pack_plant), 0, 0},
     [ACTIONS] = {FF_SECTION_ACTIONS, sizeof(ff_pack_action), 0, 0},
     [COLLIDERS] = {FF_SECTION_COLLIDERS, sizeof(ff_pack_collider), 0, 0},
+    [COLLIDER_RADII] = {FF_SECTION_COLLIDER_RADII, sizeof(float), 0, 0},
     [EXAMPLES] = {FF_SECTION_EXAMPLES, sizeof(ff_pack_example), 0, 0},
     [FEET] = {FF_SECTION_FEET, sizeof(ff_pack_foot), 0, 0},
     [SIMPLICES] = {FF_SECTION_SIMPLICES, sizeof(ff_pack_simplex), 0, 0},
@@ -116,6 +118,8 @@ static void take_views(ff_pack *pack, const ff_section_view *views)
     pack->action_count = (uint32_t)views[ACTIONS].count;
     pack->colliders = (const ff_pack_collider *)(const void *)views[COLLIDERS].data;
     pack->collider_count = (uint32_t)views[COLLIDERS].count;
+    pack->collider_radii = (const float *)(const void *)views[COLLIDER_RADII].data;
+    pack->collider_radius_count = (uint32_t)views[COLLIDER_RADII].count;
     pack->examples = (const ff_pack_example *)(const void *)views[EXAMPLES].data;
     pack->example_count = (uint32_t)views[EXAMPLES].count;
     pack->feet = (const ff_pack_foot *)(const void *)views[FEET].data;

@@ -37,6 +37,8 @@ struct ff_pack {
     uint32_t action_count;
     const ff_pack_collider *colliders;
     uint32_t collider_count;
+    const float *collider_radii; /* [FF_COLLIDER_COUNT] m, NULL when the pack has none */
+    uint32_t collider_radius_count;
     const ff_pack_example *examples;
     uint32_t example_count;
     const ff_pack_foot *feet;

@@ -158,9 +158,24 @@ static ff_status check_tracks(const ff_pack *pack, ff_error *error)
                           (unsigned long long)want);
 }
 
+/* A size for every collider, or the pack has none at all. */
+static ff_status check_collider_radii(const ff_pack *pack, ff_error *error)
+{
+    uint32_t count = pack->collider_radius_count;
+    if (count != 0 && count != FF_COLLIDER_COUNT)
+        return FF_PACK_REFUSE("CRAD", pack->collider_radii, "%u radii of colliders, expected %d", count,
+                              FF_COLLIDER_COUNT);
+    for (uint32_t c = 0; c < count; ++c)
+        if (!(pack->collider_radii[c] > 0.0f && pack->collider_radii[c] < 10.0f))
+            return FF_PACK_REFUSE("CRAD", &pack->collider_radii[c], "collider %u: radius %g m", c,
+                                  (double)pack->collider_radii[c]);
+    return FF_OK;
+}
+
 ff_status ff_pack_check_clips(const ff_pack *pack, ff_error *error)
 {
     ff_status status = check_tracks(pack, error);
+    if (status == FF_OK) status = check_collider_radii(pack, error);
     for (uint32_t i = 0; i < pack->clip_count && status == FF_OK; ++i)
         status = check_clip(pack, i, error);
     for (uint32_t i = 0; i < pack->plant_count && status == FF_OK; ++i)

@@ -31,6 +31,8 @@ enum {
     FF_SECTION_PLANTS = FF_TAG('P', 'L', 'N', 'T'),    /* ff_pack_plant */
     FF_SECTION_ACTIONS = FF_TAG('A', 'C', 'T', 'N'),   /* ff_pack_action */
     FF_SECTION_COLLIDERS = FF_TAG('C', 'O', 'L', 'L'), /* ff_pack_collider */
+    FF_SECTION_COLLIDER_RADII =
+        FF_TAG('C', 'R', 'A', 'D'),                    /* float: m, of the cylinder about each collider */
     FF_SECTION_EXAMPLES = FF_TAG('E', 'X', 'M', 'P'),  /* ff_pack_example */
     FF_SECTION_FEET = FF_TAG('F', 'E', 'E', 'T'),      /* ff_pack_foot: per example frame, left then right */
     FF_SECTION_SIMPLICES = FF_TAG('S', 'M', 'P', 'X'), /* ff_pack_simplex */
@@ -50,7 +52,7 @@ enum {
     FF_SECTION_SUCCESSORS = FF_TAG('N', 'E', 'X', 'T'), /* ff_pack_successor: of actions, nearest first */
     FF_SECTION_REACH = FF_TAG('R', 'E', 'A', 'C'), /* ff_pack_reach: of actions that lead to much the same */
 };
-#define FF_PACK_SECTION_COUNT 30
+#define FF_PACK_SECTION_COUNT 31
 
 typedef struct ff_pack_header {
     uint64_t magic;

@@ -265,6 +265,9 @@ static inline void ff_walker_clip(ff_pack_content *content)
         .swing = 1, .t_end = 0.5f, .duration = 0.5f, .collider_samples = 1, .swing_plant = UINT32_MAX};
     ff_walker_push(&content->reach, 1, sizeof(ff_pack_reach));
     ff_walker_push(&content->colliders, FF_COLLIDER_COUNT, sizeof(ff_pack_collider));
+    float *radius = ff_walker_push(&content->collider_radii, FF_COLLIDER_COUNT, sizeof *radius);
+    for (int c = 0; c < FF_COLLIDER_COUNT; ++c)
+        radius[c] = 0.1f;
 }
 
 /* Three actions instead of the one: a step with either foot and a stand, which follow each other, with events. After

@@ -1,6 +1,8 @@
 /* Surfaces of characters: cleaning, levels of detail, fitting to the rig, thickness of bones. */
 #include "mocap/generator/generator.h"
+#include "preprocess/annotate.h"
 #include "preprocess/mesh.h"
+#include "preprocess/pack_fill.h"
 #include "preprocess/retarget.h"
 #include "tests/check.h"
 #include "tests/preprocess/standard.h"
@@ -264,6 +266,63 @@ static void a_person_of_tubes_is_fitted_back_and_as_thick_as_the_tubes(void **st
     ff_skin_free(&other);
 }
 
+/* A ball of a known size about the middle of every collider, hung on its joint; the left hand's is larger. */
+static void colliders_are_as_large_as_the_skin_about_them(void **state)
+{
+    (void)state;
+    static const double size[FF_COLLIDER_COUNT] = {0.13, 0.09, 0.07, 0.12, 0.12, 0.2};
+    static const int joint[FF_COLLIDER_COUNT] = {FF_ROLE_HEAD,    FF_ROLE_WRIST_L, FF_ROLE_WRIST_R,
+                                                 FF_ROLE_ANKLE_L, FF_ROLE_BALL_R,  FF_ROLE_HIPS};
+    ff_rig rig = usual_rig();
+    ff_vec3 at[FF_BODY_COUNT], middle[FF_COLLIDER_COUNT];
+    ff_rig_rest_pose(&rig, at);
+    ff_collider_middles(at, middle);
+    ff_mesh ball = make_ball(), body = empty_mesh(6 * ball.vertex_count + 200, 1);
+    for (int c = 0; c < FF_COLLIDER_COUNT; ++c)
+        for (int i = 0; i < ball.vertex_count; ++i) /* the ball's radius is 1 */
+            add_vertex(&body, ff_madd3(middle[c], ball.vertices[i].at, size[c]), joint[c]);
+    for (int i = 0; i < 20; ++i) /* a feather on the hat */
+        add_vertex(&body, ff_v3(3.0 + i, 2.0, 0.0), FF_ROLE_HEAD);
+    for (int i = 0; i < 100; ++i) /* limbs do not count */
+        add_vertex(&body, ff_v3(5.0, i, 0.0), FF_ROLE_ELBOW_L);
+    double radii[FF_COLLIDER_COUNT];
+    ff_error error;
+    FF_ASSERT_OK(ff_mesh_collider_radii(&body, &rig, radii, &error), error);
+    for (int c = 0; c < FF_COLLIDER_COUNT; ++c) {
+        double wanted = c == FF_COLLIDER_HAND_R ? size[FF_COLLIDER_HAND_L] : size[c];
+        bool hand = c == FF_COLLIDER_HAND_L || c == FF_COLLIDER_HAND_R;
+        FF_ASSERT_NEAR(radii[c], wanted,
+                       hand ? 1e-9 : 0.01 * wanted); /* of a ball, some are nearer its axis */
+    }
+    body.vertex_count = 0;
+    FF_ASSERT_OK(ff_mesh_collider_radii(&body, &rig, radii, &error), error);
+    for (int c = 0; c < FF_COLLIDER_COUNT; ++c)
+        FF_ASSERT_NEAR(radii[c], 0.0, 0.0);
+    ff_mesh_free(&ball);
+    ff_mesh_free(&body);
+}
+
+static void larger_colliders_make_the_cylinder_about_all_of_them_wider(void **state)
+{
+    (void)state;
+    ff_pack_content content = {0};
+    ff_error error;
+    ff_pack_action *action = ff_array_grow(&content.actions, 1, sizeof *action);
+    ff_pack_collider *at = ff_array_grow(&content.colliders, 2 * FF_COLLIDER_COUNT, sizeof *at);
+    assert_true(action && at);
+    memset(action, 0, sizeof *action);
+    memset(at, 0, 2 * FF_COLLIDER_COUNT * sizeof *at);
+    action->collider_samples = 2;
+    at[FF_COLLIDER_COUNT + FF_COLLIDER_HAND_L].a = 3.0f; /* 5 m from the root of its own sample */
+    at[FF_COLLIDER_COUNT + FF_COLLIDER_ROOT].b = 4.0f;
+    const double radii[FF_COLLIDER_COUNT] = {0.1, 0.25, 0.25, 0.1, 0.1, 0.2};
+    FF_ASSERT_OK(ff_pack_set_collider_radii(&content, radii, &error), error);
+    FF_ASSERT_OK(ff_pack_set_collider_radii(&content, radii, &error), error);
+    FF_ASSERT_NEAR((double)((ff_pack_action *)content.actions.data)->coarse_radius, 5.25, 1e-6);
+    assert_int_equal(content.collider_radii.count, FF_COLLIDER_COUNT);
+    ff_pack_content_free(&content);
+}
+
 static void characters_of_the_outside_data_stand_on_the_rig(void **state)
 {
     (void)state;
@@ -312,6 +371,8 @@ int main(void)
         cmocka_unit_test(a_ball_stays_a_ball_at_every_level),
         cmocka_unit_test(a_box_keeps_its_edges),
         cmocka_unit_test(a_person_of_tubes_is_fitted_back_and_as_thick_as_the_tubes),
+        cmocka_unit_test(colliders_are_as_large_as_the_skin_about_them),
+        cmocka_unit_test(larger_colliders_make_the_cylinder_about_all_of_them_wider),
         cmocka_unit_test(characters_of_the_outside_data_stand_on_the_rig),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
