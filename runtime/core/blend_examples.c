@@ -143,18 +143,19 @@ static ff_status read_poses(ff_blend_space *space, ff_error *error)
     space->poses.keys = ff_calloc(frames, 4 * FF_POSE_LANES * sizeof *space->poses.keys);
     if (!space->hips || !space->poses.keys)
         return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory preparing %u poses", frames);
-    ff_quat clavicles[2];
-    ff_posture_clavicles(pack, clavicles);
+    ff_posture walking = ff_posture_of_gait(pack, FF_GAIT_WALK),
+               running = ff_posture_of_gait(pack, FF_GAIT_RUN);
     for (uint32_t i = 0; i < pack->example_count; ++i) {
         uint32_t index = pack->examples[i].stream;
         const ff_pack_stream *stream = &pack->streams[index];
         ff_posture own = ff_posture_of_stream(pack, index);
+        const ff_posture *common = pack->examples[i].gait == FF_GAIT_RUN ? &running : &walking;
         for (uint32_t k = 0; k < stream->frame_count; ++k) {
             ff_vec3 hips;
             ff_quat rotations[FF_JOINT_COUNT];
             uint32_t frame = stream->first_frame + k;
             ff_stream_pose(pack, index, (double)k / stream->frame_count, false, &hips, rotations);
-            ff_posture_level(&own, clavicles, rotations);
+            ff_posture_level(&own, common, rotations);
             space->hips[frame][0] = (float)hips.z;
             space->hips[frame][1] = (float)hips.x;
             space->hips[frame][2] = (float)hips.y;
