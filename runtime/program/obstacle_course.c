@@ -86,7 +86,9 @@ static ff_status build_scene(const ff_obstacle_course *course, ff_scene *scene, 
                         .step = course->step,
                         .seed = course->seed,
                         .navigation = ff_scene_navigation_default(),
-                        .groups = 1};
+                        .groups = 1,
+                        .most = course->agents,
+                        .most_numbers = course->agents};
     scene->navigation.synthesis = course->synthesis;
     snprintf(scene->title, sizeof scene->title, "Obstacle course, %s", ff_synthesis_name(course->synthesis));
     ff_status status = build_walls(course, scene, error);
