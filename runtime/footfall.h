@@ -436,6 +436,10 @@ typedef struct ff_crowd_def {
                                to the left. 0 makes them meet head on and jam: a convention is needed */
     ff_navigation navigation; /* of agents that do not name their own */
     ff_synthesis synthesis;   /* likewise */
+    double
+        body_scale; /* 0 to 0.15: bodies are up to so much larger or smaller than the pack's, drawn from the seed;
+                        default 0. Where anybody may move by footsteps, all are the pack's size: captured steps do not
+                        stretch */
     ff_mcn_def mcn;
     ff_baseline_def baseline;
     const ff_behaviour_def *behaviour; /* copied at creation; NULL: none */
@@ -570,6 +574,7 @@ typedef struct ff_agent_state {
     ff_vec2 command;    /* m/s, what navigation asked for */
     ff_vec2 goal;       /* m */
     double radius;      /* m */
+    double scale;       /* of its body: joints are so many times as far from their parents as in the pack */
     uint8_t reached;    /* 1: stands at its goal */
     uint8_t planted[2]; /* left, right: the foot is locked to the ground */
     uint8_t way;        /* FF_WAY_*: what it moves by now */

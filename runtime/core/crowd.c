@@ -86,6 +86,7 @@ static ff_status check_navigation_def(const ff_crowd_def *def, ff_error *error)
     if (status == FF_OK)
         status = check_between(def->baseline.keep_right, -0.5 * FF_PI, 0.5 * FF_PI,
                                "the baselines' keep_right (rad)", error);
+    if (status == FF_OK) status = check_between(def->body_scale, 0.0, 0.15, "body_scale", error);
     if (status == FF_OK) status = check_between(def->mcn.padding, 0.0, 0.5, "padding", error);
     if (status == FF_OK)
         status = check_between(def->baseline.padding, 0.0, 0.5, "the baselines' padding", error);
@@ -300,6 +301,9 @@ static void place_body(ff_crowd *crowd, uint32_t slot, ff_vec2 position, double 
         (ff_body){.position = position, .heading = heading, .phase = ff_random_unit(&random)};
     crowd->velocity[slot] = ff_v2(0.0, 0.0);
     ff_gait_init(crowd->space, &crowd->gaits[slot], position, heading, ff_random_next(&random));
+    double most = crowd->steppers ? 0.0 : crowd->def.body_scale;
+    double larger = ff_clamp(0.5 * most * ff_random_normal(&random), -most, most);
+    if (most > 0.0) ff_gait_set_scale(crowd->space, &crowd->gaits[slot], position, heading, 1.0 + larger);
 }
 
 ff_status ff_crowd_put(ff_crowd *crowd, const ff_agent_def *def, uint32_t spawner, ff_agent *out,
@@ -482,6 +486,7 @@ ff_status ff_crowd_agent_state(const ff_crowd *crowd, ff_agent agent, ff_agent_s
                             .command = mind->command,
                             .goal = traits->goal,
                             .radius = traits->radius,
+                            .scale = gait->style.scale,
                             .reached = mind->standing && near && still,
                             .planted = {(uint8_t)ff_gait_planted(gait, 0), (uint8_t)ff_gait_planted(gait, 1)},
                             .planner = FF_PLANNER_VELOCITY,

@@ -201,6 +201,7 @@ const char *ff_crowd_check_gait(const ff_crowd *crowd, const void *element, size
     if (!MEMBER_FITS(ff_gait, idle_time, 0.0, 1e6)) return "the time in the idle example is out of range";
     if (!MEMBERS_FIT(ff_gait, hips_drop, hips_speed, -1e2, 1e2)) return "hips are lowered out of range";
     if (!MEMBER_FITS(ff_gait, style, -1e2, 1e2)) return "a style is out of range";
+    if (!MEMBER_FITS(ff_gait, style.scale, 0.5, 2.0)) return "a body is half or twice the size of the pack's";
     if (gait->mode > FF_GAIT_STEP) REFUSE_MEMBER(ff_gait, mode, "somebody neither stands nor steps");
     if (gait->first_foot > 1) REFUSE_MEMBER(ff_gait, first_foot, "a foot is neither left nor right");
     return NULL;

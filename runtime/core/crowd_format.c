@@ -44,7 +44,7 @@ ff_section_format ff_crowd_file_format(const ff_section_kind *kinds, uint32_t co
 /* ------------------------------------------------------------------------------------------- definition */
 
 /* A member more or less: save and load it here, then put the new size. */
-_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 224, "is all of a definition saved?");
+_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 232, "is all of a definition saved?");
 
 enum { MCN_PARTS = 11 };
 
@@ -68,6 +68,7 @@ ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
                           .model_velocity = def->baseline.model_velocity,
                           .behaviour = def->behaviour != NULL,
                           .keep_right = def->keep_right,
+                          .body_scale = def->body_scale,
                           .padding = def->mcn.padding,
                           .prediction = def->mcn.prediction,
                           .baseline_keep_right = def->baseline.keep_right,
@@ -104,6 +105,7 @@ bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
     out->step = saved->step;
     out->seed = saved->seed;
     out->keep_right = saved->keep_right;
+    out->body_scale = saved->body_scale;
     out->navigation = (ff_navigation)saved->navigation;
     out->synthesis = (ff_synthesis)saved->synthesis;
     out->baseline =

@@ -47,8 +47,9 @@ typedef struct ff_saved_def {
     uint32_t mcn_parts; /* bit n: the n-th switch of ff_mcn_def */
     uint32_t model_velocity;
     uint32_t synthesis;
-    uint32_t behaviour;         /* 1: there is one, in sections of its own */
-    double keep_right;          /* rad */
+    uint32_t behaviour; /* 1: there is one, in sections of its own */
+    double keep_right;  /* rad */
+    double body_scale;
     double padding, prediction; /* m, s */
     double baseline_keep_right, baseline_padding;
     double plan_seconds, plan_expiry, plan_margin, proximity_cost; /* s, s, m, J/(kg s) */

@@ -48,7 +48,7 @@ int ff_gait_stance(const ff_gait *gait, ff_vec2 *ball, double *heading)
     if (gait->foot[0].planted == gait->foot[1].planted) return -1;
     int foot = gait->foot[0].planted ? 0 : 1;
     const ff_foothold *lock = &gait->foot[foot].lock;
-    *ball = ff_v2(lock->a, lock->b);
+    *ball = ff_scale2(ff_v2(lock->a, lock->b), gait->style.scale);
     *heading = lock->yaw;
     return foot;
 }
@@ -60,6 +60,7 @@ static void draw_style(ff_gait *gait, uint64_t variation)
     gait->style.arms = ff_clamp(1.0 + 0.2 * ff_random_normal(&random), 0.6, 1.4);
     gait->style.stoop = ff_clamp(0.02 * ff_random_normal(&random), -0.05, 0.05);
     gait->idle_time = 20.0 * ff_random_unit(&random);
+    gait->style.scale = 1.0;
     gait->first_foot = (uint32_t)(ff_random_next(&random) & 1u);
 }
 
@@ -83,6 +84,16 @@ static ff_foot_scene scene_of(const ff_blend_space *space, const ff_gait *gait, 
                            .goal_tempo = 1.0};
 }
 
+static void put_feet(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading)
+{
+    ff_cursor cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
+    ff_foot_scene scene = scene_of(space, gait, &cursor, position, heading, gait->rates, 0.0);
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_foot_neutral(&scene, foot, 0.0, &gait->foot[foot].lock);
+        ff_foot_land(&gait->foot[foot], space->body.ball_rest);
+    }
+}
+
 void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
                   uint64_t variation)
 {
@@ -91,12 +102,14 @@ void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, 
     ff_blend_find(space, gait->rates, &gait->blend);
     gait->mode = FF_GAIT_STAND;
     gait->stand = 1.0;
-    ff_cursor cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
-    ff_foot_scene scene = scene_of(space, gait, &cursor, position, heading, gait->rates, 0.0);
-    for (int foot = 0; foot < 2; ++foot) {
-        ff_foot_neutral(&scene, foot, 0.0, &gait->foot[foot].lock);
-        ff_foot_land(&gait->foot[foot], space->body.ball_rest);
-    }
+    put_feet(space, gait, position, heading);
+}
+
+void ff_gait_set_scale(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
+                       double scale)
+{
+    gait->style.scale = scale;
+    put_feet(space, gait, ff_scale2(position, 1.0 / scale), heading);
 }
 
 /* A foot's lock seen from where it would stand under the body: ahead, aside, yaw. */
@@ -303,18 +316,25 @@ void ff_gait_want(const ff_blend_space *space, ff_gait *gait, ff_locomotion way,
     gait->urgent = urgent;
 }
 
+static ff_rates scaled(ff_rates rates, double size)
+{
+    return (ff_rates){rates.forward * size, rates.left * size, rates.turn};
+}
+
 ff_rates ff_gait_clamp(const ff_blend_space *space, const ff_gait *gait, ff_rates target)
 {
     bool pace = gait->wanted == FF_RUNNING || gait->blend.way == FF_RUNNING;
+    target = scaled(target, 1.0 / gait->style.scale);
     if (gait->wanted != gait->blend.way && !pace)
         target = ff_locomotion_clamp(space, (ff_locomotion)gait->wanted, target);
-    return ff_locomotion_clamp(space, (ff_locomotion)gait->blend.way, target);
+    return scaled(ff_locomotion_clamp(space, (ff_locomotion)gait->blend.way, target), gait->style.scale);
 }
 
 void ff_gait_step(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
                   ff_rates rates, double dt)
 {
-    ff_gait_root root = {position, heading, rates};
+    double size = 1.0 / gait->style.scale;
+    ff_gait_root root = {ff_scale2(position, size), heading, scaled(rates, size)};
     ff_gait_advance(space, gait, &root, dt);
     gait->seconds[gait->blend.way] += dt;
     gait->since_switch += dt;

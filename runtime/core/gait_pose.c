@@ -114,6 +114,7 @@ void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 posi
                   ff_vec3 *hips, ff_quat *rotations)
 {
     ff_cursor cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
+    position = ff_scale2(position, 1.0 / gait->style.scale);
     ff_gait_hips(space, gait, &cursor, position, heading, hips, &rotations[FF_JOINT_HIPS]);
     hips->y -= gait->hips_drop;
     sample_joints(space, gait, &cursor, rotations);
@@ -122,4 +123,5 @@ void ff_gait_pose(const ff_blend_space *space, const ff_gait *gait, ff_vec2 posi
     pose_legs(&space->body, gait, *hips, rotations);
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
         rotations[j] = near_unit(rotations[j]);
+    *hips = ff_scale3(*hips, gait->style.scale);
 }

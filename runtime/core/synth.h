@@ -56,6 +56,11 @@ size_t ff_gait_size(void); /* for the crowd's arrays; sizeof(ff_gait) is in synt
 void ff_gait_init(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
                   uint64_t variation);
 
+/* Make one who has just been initialised scale times as large as the pack's skeleton. Joints then are scale times as far from
+ * their parents, steps as long and speeds as high; a smaller person takes as many steps in a second as a larger one. */
+void ff_gait_set_scale(const ff_blend_space *space, ff_gait *gait, ff_vec2 position, double heading,
+                       double scale);
+
 /* How the agent shall move from the next step on that allows the change. urgent: somebody is about to be run into. What is not
  * available is not asked for. */
 void ff_gait_want(const ff_blend_space *space, ff_gait *gait, ff_locomotion way, bool urgent);

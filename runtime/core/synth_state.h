@@ -34,6 +34,8 @@ typedef struct ff_gait_style {
     double cadence; /* factor on the cycle's period */
     double arms;    /* factor on the arm swing */
     double stoop;   /* rad, forward bend of the spine */
+    double
+        scale; /* of the pack's skeleton. All else in ff_gait is in lengths of that: world lengths over scale */
 } ff_gait_style;
 
 struct ff_gait {

@@ -27,21 +27,21 @@ static void write_offset(ff_text *text, int depth, ff_vec3 offset)
 }
 
 /* Recursion is as deep as the skeleton, at most FF_FIGURE_MAX_JOINTS. */
-static void write_joint(ff_text *text, const ff_figure *figure, uint32_t joint, int depth, uint32_t *order,
-                        uint32_t *count)
+static void write_joint(ff_text *text, const ff_figure *figure, double scale, uint32_t joint, int depth,
+                        uint32_t *order, uint32_t *count)
 {
     char name[sizeof figure->name[0]];
     word(figure->name[joint], name, sizeof name);
     order[(*count)++] = joint;
     ff_text_add(text, "%*s%s %s\n%*s{\n", 2 * depth, "", depth ? "JOINT" : "ROOT", name, 2 * depth, "");
-    write_offset(text, depth + 1, depth ? figure->offset[joint] : ff_v3(0.0, 0.0, 0.0));
+    write_offset(text, depth + 1, depth ? ff_scale3(figure->offset[joint], scale) : ff_v3(0.0, 0.0, 0.0));
     ff_text_add(text, "%*sCHANNELS %sZrotation Xrotation Yrotation\n", 2 * depth + 2, "",
                 depth ? "3 " : "6 Xposition Yposition Zposition ");
     for (uint32_t j = joint + 1; j < figure->joint_count; ++j)
-        if (figure->parent[j] == (int32_t)joint) write_joint(text, figure, j, depth + 1, order, count);
+        if (figure->parent[j] == (int32_t)joint) write_joint(text, figure, scale, j, depth + 1, order, count);
     if (is_leaf(figure, joint)) {
         ff_text_add(text, "%*sEnd Site\n%*s{\n", 2 * depth + 2, "", 2 * depth + 2, "");
-        write_offset(text, depth + 2, ff_figure_tip(figure, joint));
+        write_offset(text, depth + 2, ff_scale3(ff_figure_tip(figure, joint), scale));
         ff_text_add(text, "%*s}\n", 2 * depth + 2, "");
     }
     ff_text_add(text, "%*s}\n", 2 * depth, "");
@@ -82,7 +82,7 @@ ff_status ff_recording_write_bvh(const char *path, const ff_figure *figure, cons
     uint32_t order[FF_FIGURE_MAX_JOINTS], count = 0;
     ff_text text = {0};
     ff_text_add(&text, "HIERARCHY\n");
-    write_joint(&text, figure, 0, 0, order, &count);
+    write_joint(&text, figure, ff_recording_scale(recording, agent), 0, 0, order, &count);
     ff_text_add(&text, "MOTION\nFrames: %u\nFrame Time: %.8f\n", recording->pose_count,
                 ff_recording_pose_step(recording));
     double last[FF_FIGURE_MAX_JOINTS][3];

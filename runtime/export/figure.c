@@ -66,6 +66,14 @@ void ff_figure_place(const ff_figure *figure, ff_vec3 hips, const ff_quat *local
     if (rotations) memcpy(rotations, turn, figure->joint_count * sizeof *turn);
 }
 
+void ff_figure_place_scaled(const ff_figure *figure, double scale, ff_vec3 hips, const ff_quat *local,
+                            ff_vec3 *positions, ff_quat *rotations)
+{
+    ff_figure_place(figure, ff_scale3(hips, 1.0 / scale), local, positions, rotations);
+    for (uint32_t j = 0; j < figure->joint_count && positions; ++j)
+        positions[j] = ff_scale3(positions[j], scale);
+}
+
 double ff_figure_scale(const ff_figure *figure)
 {
     return ff_clamp(figure->rest[FF_JOINT_HIPS].y / 0.95, 0.3, 3.0);

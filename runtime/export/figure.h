@@ -30,6 +30,10 @@ ff_status ff_figure_from_pack(const ff_pack *pack, ff_figure *out, ff_error *err
 ff_status ff_figure_from_joints(uint32_t count, const int32_t *parents, const ff_vec3 *offsets,
                                 const char *const *names, ff_figure *out, ff_error *error);
 
+/* The same of a body scale times as large. */
+void ff_figure_place_scaled(const ff_figure *figure, double scale, ff_vec3 hips, const ff_quat *local,
+                            ff_vec3 *positions, ff_quat *rotations);
+
 /* World positions and rotations of every joint; either output may be NULL. */
 void ff_figure_place(const ff_figure *figure, ff_vec3 hips, const ff_quat *local, ff_vec3 *positions,
                      ff_quat *rotations);

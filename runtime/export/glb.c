@@ -86,7 +86,8 @@ static void add_rotations(const writer *w, uint32_t agent, const int *nodes)
 /* An agent that leaves the scene shrinks to nothing from one key to the next, and one that comes later is nothing before. */
 static void add_leaving(const writer *w, uint32_t agent, int hips)
 {
-    const float one[3] = {1.0f, 1.0f, 1.0f}, nothing[3] = {0.0f, 0.0f, 0.0f};
+    float size = (float)ff_recording_scale(w->recording, agent);
+    const float one[3] = {size, size, size}, nothing[3] = {0.0f, 0.0f, 0.0f};
     ff_span there = ff_recording_span(w->recording, agent);
     if (there.first == 0 && there.end == w->recording->step_count) return;
     float times[3] = {0.0f}, scales[3][3];
@@ -118,6 +119,8 @@ static void add_agent(writer *w, uint32_t agent)
     for (uint32_t j = 0; j < figure->joint_count; ++j)
         nodes[j] = ff_glb_add_node(w->model, figure->name[j], j == 0 ? top : nodes[figure->parent[j]],
                                    figure->offset[j]);
+    /* Sizes differ by the scale of the hips, which stretches all below: so all share one mesh and its bind matrices. */
+    ff_glb_set_scale(w->model, nodes[0], ff_recording_scale(w->recording, agent));
     int skin = ff_glb_add_skin(w->model, name, nodes, (int)figure->joint_count, w->wardrobe.inverse_binds);
     ff_look look = ff_look_of(w->scene, agent);
     snprintf(name, sizeof name, "agent %u body", agent);

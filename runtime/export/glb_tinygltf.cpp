@@ -193,6 +193,15 @@ void ff_glb_set_rotation(ff_glb_model *model, int node, ff_quat rotation)
     });
 }
 
+void ff_glb_set_scale(ff_glb_model *model, int node, double scale)
+{
+    if (scale == 1.0) return;
+    built(model, [&](tinygltf::Model &m) {
+        m.nodes[static_cast<size_t>(node)].scale = {scale, scale, scale};
+        return 0;
+    });
+}
+
 void ff_glb_set_mesh(ff_glb_model *model, int node, int mesh, int skin)
 {
     built(model, [&](tinygltf::Model &m) {

@@ -80,6 +80,7 @@ void ff_recording_set_track(ff_recording *recording, uint32_t agent, const ff_ag
         (ff_track){.position = state->position,
                    .heading = (float)state->heading,
                    .speed = (float)ff_length2(state->velocity),
+                   .scale = (float)(state->scale > 0.0 ? state->scale : 1.0),
                    .present = 1,
                    .reached = state->reached,
                    .planted = {state->planted[0], state->planted[1]}};
@@ -192,6 +193,15 @@ const float *ff_recording_raw_hips(const ff_recording *recording, uint32_t pose,
 {
     const float(*hips)[3] = recording->hips.data;
     return hips[(size_t)pose * recording->agent_count + agent];
+}
+
+double ff_recording_scale(const ff_recording *recording, uint32_t agent)
+{
+    for (uint32_t step = 0; step < recording->step_count; ++step) {
+        const ff_track *track = ff_recording_track(recording, step, agent);
+        if (track->present) return (double)track->scale;
+    }
+    return 1.0;
 }
 
 void ff_recording_pose(const ff_recording *recording, uint32_t pose, uint32_t agent, ff_vec3 *hips,

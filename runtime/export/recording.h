@@ -12,6 +12,7 @@
 typedef struct ff_track {
     ff_vec2 position;     /* m */
     float heading, speed; /* rad, m/s */
+    float scale;          /* of the body */
     uint8_t present;      /* 0: not in the scene any more */
     uint8_t reached;
     uint8_t planted[2];
@@ -55,6 +56,9 @@ ff_span ff_recording_span(const ff_recording *recording, uint32_t agent);
 
 /* Whether any pose was kept of an agent. */
 bool ff_recording_is_posed(const ff_recording *recording, uint32_t agent);
+
+/* How large its body is beside the pack's. */
+double ff_recording_scale(const ff_recording *recording, uint32_t agent);
 
 const ff_track *ff_recording_track(const ff_recording *recording, uint32_t step, uint32_t agent);
 void ff_recording_pose(const ff_recording *recording, uint32_t pose, uint32_t agent, ff_vec3 *hips,

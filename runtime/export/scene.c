@@ -19,8 +19,9 @@ const char *ff_scene_kind_name(ff_scene_kind kind)
 
 #define COMMON_KEYS                                                                                          \
     "kind", "title", "seconds", "step", "seed", "at_goal", "agents", "agent_radius", "preferred_speed",      \
-        "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "synthesis", "mcn", "baseline",   \
-        "goals", "regions", "signals", "variables", "behaviours", "behaviour", "groups", "spawners"
+        "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "synthesis", "body_scale", "mcn", \
+        "baseline", "goals", "regions", "signals", "variables", "behaviours", "behaviour", "groups",         \
+        "spawners"
 
 static const char *const circle_keys[] = {COMMON_KEYS, "radius", "jitter", NULL};
 static const char *const two_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "distance", NULL};

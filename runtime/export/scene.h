@@ -31,6 +31,7 @@ typedef struct ff_scene_agent {
 typedef struct ff_scene_navigation {
     ff_navigation method;
     ff_synthesis synthesis;
+    double body_scale; /* bodies differ in size by up to so much */
     double keep_right; /* rad, of MCN */
     ff_mcn_def mcn;
     ff_baseline_def baseline;

@@ -10,6 +10,7 @@ ff_crowd_def ff_scene_crowd_def(const ff_scene *scene, ff_behaviour_def *behavio
     def.keep_right = scene->navigation.keep_right;
     def.navigation = scene->navigation.method;
     def.synthesis = scene->navigation.synthesis;
+    def.body_scale = scene->navigation.body_scale;
     def.mcn = scene->navigation.mcn;
     def.baseline = scene->navigation.baseline;
     *behaviour = ff_scene_behaviour_def(&scene->behaviour);

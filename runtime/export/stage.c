@@ -35,13 +35,16 @@ void ff_stage_pose(ff_stage *stage, const ff_recording *recording, uint32_t pose
     ff_vec3 hips, places[FF_FIGURE_MAX_JOINTS];
     ff_quat local[FF_FIGURE_MAX_JOINTS], turns[FF_FIGURE_MAX_JOINTS];
     ff_recording_pose(recording, pose, agent, &hips, local);
-    ff_figure_place(stage->figure, hips, local, places, turns);
+    /* As large as the pack's, and then stretched about the origin: so the mesh need not know of sizes. */
+    double scale = ff_recording_scale(recording, agent);
+    ff_figure_place(stage->figure, ff_scale3(hips, 1.0 / scale), local, places, turns);
     ff_body_mesh_skin(&stage->mesh, stage->figure, places, turns, stage->positions, stage->normals);
     for (size_t i = 0; i < stage->mesh.vertices.count; ++i) {
-        stage->vertices[i].position = stage->positions[i];
+        stage->vertices[i].position = ff_scale3(stage->positions[i], scale);
         stage->vertices[i].normal = stage->normals[i];
     }
-    if (joints) memcpy(joints, places, stage->figure->joint_count * sizeof *joints);
+    for (uint32_t j = 0; j < stage->figure->joint_count && joints; ++j)
+        joints[j] = ff_scale3(places[j], scale);
 }
 
 void ff_stage_dress(ff_stage *stage, const ff_look *look)

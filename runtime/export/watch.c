@@ -68,7 +68,7 @@ ff_status ff_watch_pose(ff_watch *watch, const ff_figure *figure, uint32_t agent
 {
     static const int ball[2] = {FF_JOINT_BALL_L, FF_JOINT_BALL_R};
     ff_vec3 places[FF_FIGURE_MAX_JOINTS];
-    ff_figure_place(figure, hips, rotations, places, NULL);
+    ff_figure_place_scaled(figure, state->scale, hips, rotations, places, NULL);
     watch->radii[agent] = state->radius;
     watch->contacts.bodies[agent] = ff_cylinders_of(places);
     follow_joints(watch, agent, rotations);

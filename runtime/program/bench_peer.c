@@ -43,6 +43,7 @@ static ff_status record(const ff_detour *detour, const ff_scene *scene, ff_recor
     for (uint32_t i = 0; i < recording->agent_count && status == FF_OK; ++i) {
         const ff_scene_agent *agent = &ff_scene_agents(scene)[i];
         ff_agent_state state = {.position = ff_detour_position(detour, i),
+                                .scale = 1.0,
                                 .velocity = ff_detour_velocity(detour, i)};
         state.heading = ff_atan2(state.velocity.b, state.velocity.a);
         state.reached = ff_length2(ff_sub2(agent->goal, state.position)) <= agent->goal_tolerance &&

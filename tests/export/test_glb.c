@@ -132,6 +132,24 @@ static void test_agents_share_vertices_and_bind_matrices(void **state)
     assert_true(bodies >= 5);
 }
 
+/* walker_record makes every second and third agent larger. */
+static void test_bodies_of_other_sizes_have_their_hips_scaled(void **state)
+{
+    const document *d = *state;
+    const json_t *skins = list(d, "skins"), *nodes = list(d, "nodes");
+    for (size_t i = 0; i < json_array_size(skins); ++i) {
+        const json_t *joints = json_object_get(json_array_get(skins, i), "joints");
+        for (size_t j = 0; j < FF_JOINT_COUNT; ++j) {
+            size_t node = (size_t)json_integer_value(json_array_get(joints, j));
+            const json_t *scale = json_object_get(json_array_get(nodes, node), "scale");
+            double want = j == 0 ? (double)(float)(1.0 + 0.05 * (double)(i % 3)) : 1.0;
+            if (want == 1.0) assert_null(scale);
+            for (size_t k = 0; k < 3 && want != 1.0; ++k)
+                FF_ASSERT_NEAR(json_number_value(json_array_get(scale, k)), want, 1e-6);
+        }
+    }
+}
+
 static void test_only_joints_that_move_have_channels(void **state)
 {
     const document *d = *state;
@@ -221,6 +239,7 @@ int main(void)
         cmocka_unit_test(test_every_accessor_lies_inside_its_view_and_every_view_inside_the_file),
         cmocka_unit_test(test_agents_share_vertices_and_bind_matrices),
         cmocka_unit_test(test_bind_matrices_undo_the_rest_pose_of_every_skeleton),
+        cmocka_unit_test(test_bodies_of_other_sizes_have_their_hips_scaled),
         cmocka_unit_test(test_only_joints_that_move_have_channels),
         cmocka_unit_test(test_hips_and_rotations_are_those_recorded),
     };

@@ -63,6 +63,7 @@ static inline void walker_record(const ff_scene *scene, double seconds, ff_recor
             double length = ff_length2(way), gone = ff_min(length, k * scene->step * agent->preferred_speed);
             double phase = gone / 1.4;
             ff_agent_state state = {.position = ff_madd2(agent->position, ff_unit2(way), gone),
+                                    .scale = 1.0 + 0.05 * (i % 3),
                                     .heading = agent->heading,
                                     .reached = gone >= length};
             state.planted[0] = fmod(phase + 0.25, 1.0) < 0.6;
