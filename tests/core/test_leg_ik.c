@@ -88,6 +88,45 @@ static void a_straight_leg_bends_at_the_front_of_the_thigh(void **state)
     FF_ASSERT_NEAR(leg.knee.x, 0.1, 1e-9);
 }
 
+static void assert_same_leg(const ff_legs *legs, int half, const ff_leg *alone)
+{
+    const ff_vec3 got[3] = {ff_pair3_half(legs->hip, half), ff_pair3_half(legs->knee, half),
+                            ff_pair3_half(legs->ankle, half)};
+    const ff_vec3 want[3] = {alone->hip, alone->knee, alone->ankle};
+    const ff_quat turned[2] = {ff_pairq_half(legs->thigh, half), ff_pairq_half(legs->shank, half)};
+    const ff_quat turn[2] = {alone->thigh, alone->shank};
+    assert_memory_equal(got, want, sizeof got);
+    assert_memory_equal(turned, turn, sizeof turned);
+}
+
+static void two_legs_at_once_are_each_as_alone_to_the_bit(void **state)
+{
+    (void)state;
+    ff_random random = {3, 1, 0};
+    for (int i = 0; i < 500; ++i) {
+        ff_leg leg[2];
+        ff_vec3 ankle[2];
+        for (int k = 0; k < 2; ++k) {
+            leg[k] = leg_bent(ff_random_range(&random, -0.6, 1.0), ff_random_range(&random, 0.02, 1.5));
+            ankle[k] = ff_v3(ff_random_range(&random, -0.5, 0.5), ff_random_range(&random, -0.2, 1.0),
+                             ff_random_range(&random, -0.8, 0.8));
+        }
+        /* Now and then one of the two is turned right round, out of reach, or has no way to go at all. */
+        if (i % 10 == 0) ankle[0] = ff_sub3(ff_scale3(leg[0].hip, 2.0), leg[0].ankle);
+        if (i % 10 == 1) ankle[1] = ff_v3(0.0, -9.0, 0.0);
+        if (i % 10 == 2) ankle[0] = leg[0].hip;
+        ff_legs legs = {ff_pair3_of(leg[0].hip, leg[1].hip),     ff_pair3_of(leg[0].knee, leg[1].knee),
+                        ff_pair3_of(leg[0].ankle, leg[1].ankle), ff_pairq_of(leg[0].thigh, leg[1].thigh),
+                        ff_pairq_of(leg[0].shank, leg[1].shank), ff_pairq_of(leg[0].foot, leg[1].foot)};
+        ff_legs_solve(&legs, legs.hip, ff_pair3_of(ankle[0], ankle[1]));
+        for (int k = 0; k < 2; ++k) {
+            ff_leg_solve(&leg[k], leg[k].hip, ankle[k]);
+            assert_true(isfinite(leg[k].knee.x) && isfinite(leg[k].thigh.w) && isfinite(leg[k].shank.w));
+            assert_same_leg(&legs, k, &leg[k]);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -95,6 +134,7 @@ int main(void)
         cmocka_unit_test(the_knee_bends_forward_and_moves_without_jumps),
         cmocka_unit_test(reach_eases_from_0_990_to_0_998_and_never_locks),
         cmocka_unit_test(a_straight_leg_bends_at_the_front_of_the_thigh),
+        cmocka_unit_test(two_legs_at_once_are_each_as_alone_to_the_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
