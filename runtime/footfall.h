@@ -416,7 +416,7 @@ typedef struct ff_footsteps_def {
     uint32_t actions;        /* of the pack, at most; 0 (default): 200 */
     double expiry;           /* s, after which a plan is made anew; default 2 */
     uint32_t expiry_actions; /* or after so many actions of it; default 3 */
-    double margin;           /* m, kept from others' bodies and obstacles; default 0.05 */
+    double margin;           /* m, kept from others' bodies and obstacles; default 0.1 */
     double proximity_cost;   /* J/(kg s) that being within 0.3 m of somebody counts for; default 0 */
 } ff_footsteps_def;
 

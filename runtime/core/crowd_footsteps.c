@@ -170,6 +170,7 @@ void ff_stepper_adopt(ff_crowd *crowd, uint32_t slot, const ff_plan_job *job, do
     ff_stepper_tell(crowd, slot);
     if (job->kind != FF_JOB_REACT) return;
     ff_play_order order = ff_order_of(crowd->footsteps, &s->plan.steps[0]);
+    if (s->plan.steps[0].hold) order.action = FF_PLAY_STAND;
     ff_play_cut(crowd->footsteps->play, &s->play, &order, time);
 }
 

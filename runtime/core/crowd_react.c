@@ -13,18 +13,21 @@
 
 #define LATEST 0.6 /* of an action: later on it is finished */
 #define LOOK 1.5   /* s ahead */
+#define SUDDEN 0.4 /* s: what is met so soon in spite of everything lets one stop dead */
 #define MOST 48    /* ways that are tried */
 
-/* How bad: the sooner something is met, the worse; others' plans come after what is really there. */
+/* How bad: the sooner something is met, the worse. What is really there comes first, then others' plans, then those who go by
+ * velocity, who make way as well. */
 typedef struct outcome {
-    double surprise, others; /* s until met; INFINITY: never */
-    double stand;            /* s, until it stands */
+    double surprise, others, walkers; /* s until met; INFINITY: never */
+    double stand;                     /* s, until it stands */
 } outcome;
 
 static bool better(const outcome *p, const outcome *q)
 {
     if (p->surprise != q->surprise) return p->surprise > q->surprise;
     if (p->others != q->others) return p->others > q->others;
+    if (p->walkers != q->walkers) return p->walkers > q->walkers;
     return p->stand < q->stand;
 }
 
@@ -52,16 +55,18 @@ static void stop_after(const ff_action_set *set, const ff_plan_step *step, const
         ++out->count;
     }
     ff_plan_step last = out->steps[out->count - 1];
-    last.start += (double)set->actions[last.action].duration;
-    last.hold = 1;
-    out->steps[out->count++] = last;
+    if (!last.hold) {
+        last.start += (double)set->actions[last.action].duration;
+        last.hold = 1;
+        out->steps[out->count++] = last;
+    }
     out->own = 0;
     out->stop = out->count - 1;
 }
 
 static outcome judge(const ff_plan_world *world, double time, const ff_plan_job *job)
 {
-    outcome out = {INFINITY, INFINITY, job->plan.steps[job->plan.count - 1].start - time};
+    outcome out = {INFINITY, INFINITY, INFINITY, job->plan.steps[job->plan.count - 1].start - time};
     double when;
     for (uint32_t i = 0; i < world->shape_count; ++i)
         if (ff_track_meets(&job->track, time, LOOK, &world->shapes[i], ff_v2(0.0, 0.0), 0.0, &when))
@@ -70,7 +75,7 @@ static outcome judge(const ff_plan_world *world, double time, const ff_plan_job 
         const ff_walker *walker = &world->walkers[i];
         ff_shape disc = {.centre = walker->position, .radius = walker->radius, .high = 2.0};
         if (ff_track_meets(&job->track, time, LOOK, &disc, walker->velocity, 0.0, &when))
-            out.surprise = ff_min(out.surprise, when - time);
+            out.walkers = ff_min(out.walkers, when - time);
     }
     if (ff_solids_hit(world->solids, job->track.origin, 10.0, job->track.origin, job->track.knots,
                       job->track.count, 0.0))
@@ -96,7 +101,7 @@ static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from
 {
     const ff_action_set *set = w->crowd->footsteps->actions;
     const ff_set_action *a = &set->actions[step->action];
-    bool stands = (a->flags & FF_SET_TO_STANDING) != 0;
+    bool stands = step->hold || (a->flags & FF_SET_TO_STANDING) != 0;
     uint32_t count = stands ? 1 : a->stop_count;
     for (uint32_t k = 0; k < count && w->tried < MOST; ++k, ++w->tried) {
         ff_plan_job job;
@@ -113,22 +118,51 @@ static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from
     }
 }
 
+/* The last resort: stop dead. Nobody walks through a wall, however suddenly it came. */
+static void try_freezing(ways *w)
+{
+    const ff_body *body = &w->crowd->bodies[w->slot];
+    ff_plan_job job;
+    job.slot = w->slot;
+    ff_plan_stand(w->crowd->footsteps->actions, body->position, body->heading, w->time, &job.plan);
+    ff_plan_track(w->crowd->footsteps->actions, &job.plan, w->time, &job.track);
+    outcome result = judge(w->world, w->time, &job);
+    if (!better(&result, &w->outcome)) return;
+    w->outcome = result;
+    w->best->plan = job.plan;
+    w->best->track = job.track;
+    w->best->kind = FF_JOB_REACT;
+}
+
+/* What was found becomes the job's, if it is better than what there was. */
+static bool take_best(const ff_crowd *crowd, uint32_t slot, const ways *w, const outcome *old)
+{
+    if (!better(&w->outcome, old)) return false;
+    ff_plan_job *job = w->best;
+    job->bounds = ff_track_bounds(&job->track);
+    job->target = ff_stepper_target(crowd, slot);
+    job->good = 1;
+    job->counts.reactions = job->kind == FF_JOB_REACT;
+    return true;
+}
+
 bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world *world, double time,
                       ff_plan_job *job)
 {
     const ff_stepper *s = &crowd->steppers[slot];
     const ff_action_set *set = crowd->footsteps->actions;
     const ff_plan_step *now = &s->plan.steps[s->at], *from = s->at > 0 ? now - 1 : &s->plan.from;
-    if (now->hold) return false;
+    if (now->hold && s->at + 1 == s->plan.count) return false; /* stands already */
     ways w = {.crowd = crowd, .world = world, .best = job, .time = time, .slot = slot};
     /* What the plan in force, or the one just found, would meet. */
     ff_plan_job keep = {
         .slot = slot, .plan = job->good ? job->plan : s->plan, .track = job->good ? job->track : s->track};
     w.outcome = judge(world, time, &keep);
     w.found = true;
-    if (w.outcome.surprise == INFINITY) return false;
+    if (w.outcome.surprise == INFINITY && w.outcome.walkers == INFINITY) return false;
     outcome old = w.outcome;
     try_step(&w, now, from, false);
+    if (now->hold) return take_best(crowd, slot, &w, &old);
     double done = (time - now->start) / (double)set->actions[now->action].duration;
     const ff_set_action *before = &set->actions[from->action];
     for (uint32_t k = 0; k < before->step_count && done < LATEST; ++k) {
@@ -140,10 +174,6 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
         step.start = time - done * (double)b->duration;
         try_step(&w, &step, from, true);
     }
-    if (!better(&w.outcome, &old)) return false;
-    job->bounds = ff_track_bounds(&job->track);
-    job->target = ff_stepper_target(crowd, slot);
-    job->good = 1;
-    job->counts.reactions = job->kind == FF_JOB_REACT;
-    return true;
+    if (w.outcome.surprise < SUDDEN || w.outcome.walkers < SUDDEN) try_freezing(&w);
+    return take_best(crowd, slot, &w, &old);
 }

@@ -7,7 +7,9 @@
 
 #define DOUBLE_SUPPORT 0.24 /* of a step */
 #define RUN_SUPPORT 0.4     /* of a running step: pushing off is over when the foot leaves, then it flies */
-#define WALLS_WITHIN 1.5    /* m: a second away for who walks fast */
+#define STEPPER_REACH                                                                                        \
+    0.1 /* m: whose steps are planned swings hands and feet where it will, and gives no way */
+#define WALLS_WITHIN 1.5 /* m: a second away for who walks fast */
 /* s: a low-pass as late as the displacement over 0.25 s (algorithms E, 9), for those who are not told the rates */
 #define SEEN_DELAY 0.125
 
@@ -80,7 +82,8 @@ static void snapshot(ff_crowd *crowd)
                                              .reference = reference,
                                              .preferred = mind->preferred,
                                              .goal = crowd->traits[slot].goal,
-                                             .radius = crowd->traits[slot].radius,
+                                             .radius = crowd->traits[slot].radius +
+                                                       (ff_is_stepper(crowd, slot) ? STEPPER_REACH : 0.0),
                                              .slot = slot,
                                              .standing = mind->standing,
                                              .firm = ff_is_stepper(crowd, slot)};

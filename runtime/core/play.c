@@ -161,12 +161,24 @@ void ff_play_advance(const ff_play_set *set, ff_play *play, double time)
         next_entry(set, play);
 }
 
+/* Feet where they are, the one in the air put down under it. */
+static ff_play_step freeze(const ff_play_targets *shown, double time)
+{
+    ff_root_frame root = {shown->root, shown->heading};
+    ff_play_foot feet[2];
+    for (int foot = 0; foot < 2; ++foot)
+        feet[foot] = (ff_play_foot){shown->ball[foot].z, shown->ball[foot].x,
+                                    ff_play_foot_yaw(shown->foot[foot]), 1, 0};
+    return stand_at(&root, feet, time);
+}
+
 void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *order, double time)
 {
     ff_play_targets shown[2];
     for (int i = 0; i < 2; ++i)
         ff_play_targets_at(set, play, time + i * LATER, &shown[i]);
-    play->step[0] = action_at(set, order, play->step[0].foot);
+    play->step[0] =
+        order->action == FF_PLAY_STAND ? freeze(&shown[0], time) : action_at(set, order, play->step[0].foot);
     play->step[0].entered = time;
     ff_play_next(set, play, NULL);
     ff_play_join(set, play, shown, LATER, time);

@@ -78,7 +78,8 @@ void ff_play_enter(const ff_play_set *set, ff_play *play, const ff_play_order *o
                    const ff_play_foot feet[2], const ff_play_targets shown[2], double later, double time,
                    double idle_time);
 
-/* Take over in the middle of the present entry, at time: the order has begun at its own start, which may lie before. */
+/* Take over in the middle of the present entry, at time: the order has begun at its own start, which may lie before.
+ * FF_PLAY_STAND: stop dead, the foot in the air is put down where it is. */
 void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *order, double time);
 
 /* Time has come to this: entries that are over by then are left, each join at its own moment. Never backwards. */
