@@ -9,6 +9,7 @@
 
 #define LATER (1.0 / 240.0) /* s, over which speeds are taken */
 #define JUST_LANDED 0.2     /* u of a gait's phase: a foot that has been down for no longer has just landed */
+#define DOUBLE_SUPPORT 1.0  /* u: both feet are down for no longer */
 #define TURN_WEIGHT 0.3     /* m/s for a rad/s, between a gait and the action that it is taken for */
 
 /* ------------------------------------------------------------------------------------------------- to footsteps */
@@ -160,6 +161,17 @@ static ff_rates rates_of(const ff_stepper *s, const ff_footsteps *f)
     return (ff_rates){speed.a, speed.b, (double)r->theta / (double)r->duration};
 }
 
+/* Where in the cycle somebody is whose support foot has just landed: where the other foot, on its toes by now, leaves the
+ * ground. */
+static double phase_of(const ff_crowd *crowd, const ff_blend *blend, int support)
+{
+    double start[2], length[2];
+    for (int foot = 0; foot < 2; ++foot)
+        ff_blend_lock(crowd->space, blend, foot, &start[foot], &length[foot]);
+    double off = ff_phase_wrap(start[1 - support] + length[1 - support]);
+    return ff_phase_wrap(off - start[support]) < DOUBLE_SUPPORT ? off : start[support];
+}
+
 static void leave(ff_crowd *crowd, uint32_t slot, double time)
 {
     ff_stepper *s = &crowd->steppers[slot];
@@ -180,9 +192,8 @@ static void leave(ff_crowd *crowd, uint32_t slot, double time)
     gait->mode = stands ? FF_GAIT_STAND : FF_GAIT_STEP;
     gait->stand = stands ? 1.0 : 0.0;
     gait->hips_drop = gait->hips_speed = 0.0;
-    double length;
-    int support = stands ? 0 : (int)f->play->actions[s->play.step[0].action].support;
-    ff_blend_lock(space, &gait->blend, support, &gait->phase, &length);
+    gait->phase =
+        stands ? 0.0 : phase_of(crowd, &gait->blend, (int)f->play->actions[s->play.step[0].action].support);
     place_feet(crowd, &at, gait);
     memset(&gait->offset, 0, sizeof gait->offset);
     body->position = at.root;

@@ -152,11 +152,12 @@ static void an_obstacle_on_a_known_path_is_noticed_and_avoided(void **state)
     go(crowd, 2.0);
     ff_obstacle_def block = ff_obstacle_def_default();
     block.kind = FF_OBSTACLE_PATH;
-    block.half_length = block.half_width = 0.3;
+    block.half_length = 0.2;
+    block.half_width = 1.0;
     double time = ff_crowd_time(crowd);
     ff_vec2 here = state_of(crowd, agent).position;
-    block.path[0] = (ff_obstacle_point){0.0, ff_v2(here.a + 1.9, -2.0)};
-    block.path[1] = (ff_obstacle_point){3.0, ff_v2(here.a + 1.9, 2.0)};
+    block.path[0] = (ff_obstacle_point){0.0, ff_v2(here.a + 2.2, -2.0)};
+    block.path[1] = (ff_obstacle_point){3.0, ff_v2(here.a + 2.2, 2.0)};
     block.path_count = 2;
     block.start = time;
     uint32_t number;
@@ -167,7 +168,7 @@ static void an_obstacle_on_a_known_path_is_noticed_and_avoided(void **state)
         ff_crowd_step(crowd);
         FF_ASSERT_OK(ff_crowd_obstacle_place(crowd, number, &at, NULL, &error), error);
         ff_vec2 gap = ff_sub2(state_of(crowd, agent).position, at);
-        nearest = ff_min(nearest, ff_max(fabs(gap.a), fabs(gap.b)) - 0.4);
+        nearest = ff_min(nearest, ff_max(fabs(gap.a) - 0.3, fabs(gap.b) - 1.1));
     }
     assert_true(counts_of(crowd, agent).events[FF_EVENT_NEARBY] >= 1);
     assert_true(nearest > 0.1);
