@@ -239,6 +239,8 @@ typedef struct ff_plan_options {
     uint8_t safe;  /* plans end in a checked stop; default 1. 0: as in the paper */
     uint8_t table; /* the pack's reach table guides the search; default 1 */
     uint8_t merge; /* places that are nearly the same count as one; default 1 */
+    uint8_t reactive; /* jumps and ducks too, for imminent danger; default 0 */
+    uint8_t unused[3];
 } ff_plan_options;
 ff_plan_options ff_plan_options_default(void);
 ff_plan_goal ff_plan_goal_at(ff_vec2 at);

@@ -16,7 +16,7 @@ const float ff_collider_radius[FF_COLLIDER_COUNT] = {0.12f, 0.08f, 0.08f, 0.11f,
 
 void ff_collider_extent(uint32_t collider, float y, float *low, float *high)
 {
-    static const float below[FF_COLLIDER_COUNT] = {0.15f, 0.10f, 0.10f, 10.0f, 10.0f, 0.10f};
+    static const float below[FF_COLLIDER_COUNT] = {0.15f, 0.10f, 0.10f, 0.15f, 0.15f, 0.10f};
     static const float above[FF_COLLIDER_COUNT] = {0.12f, 0.10f, 0.10f, 0.10f, 0.10f, 0.45f};
     *low = y - below[collider] > 0.0f ? y - below[collider] : 0.0f;
     *high = y + above[collider];

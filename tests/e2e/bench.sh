@@ -65,6 +65,13 @@ hybrid_walks_an_obstacle_course_in_three_ways() {
         [ -s "$work/hybrid/hybrid-hybrid.png" ] && [ -s "$work/hybrid/hybrid-blending-film.png" ] &&
         has "$work/hybrid.json" nn_open_m wall_share changes_per_minute '"arrived": 3'
 }
+astar_sets_the_search_beside_the_paper_s() {
+    run 0 "$crowd" bench astar --pack "$builtin" --problems 2 --quiet --out "$work/astar" --json "$work/astar.json" &&
+        silent err || return 1
+    has "$work/out" "reach table" "straight line" paper && cmp "$work/astar.json" "$work/astar/astar.json" &&
+        [ "$(wc -l <"$work/astar/astar.csv")" -ge 39 ] && [ -s "$work/astar/astar.png" ] &&
+        has "$work/astar.json" children_per_s ms_p99 cost_p95 '"formulation": "paper"'
+}
 mistakes_leave_with_2_and_name_the_way_on() {
     run 2 "$crowd" bench && run 2 "$crowd" bench fig77 && says err "fig7" &&
         run 2 "$crowd" bench table1 && says err "--pack" && run 2 "$crowd" bench fig7 && says err "--pack" &&
@@ -80,5 +87,6 @@ test_that "walks keep their bars" walks_keep_their_bars
 test_that "every example is walked and filmed" every_example_is_walked_and_filmed
 test_that "straight walks are people's" straight_walks_are_people_s
 test_that "hybrid walks an obstacle course in three ways" hybrid_walks_an_obstacle_course_in_three_ways
+test_that "astar sets the search beside the paper's" astar_sets_the_search_beside_the_paper_s
 test_that "mistakes leave with 2 and name the way on" mistakes_leave_with_2_and_name_the_way_on
 finish
