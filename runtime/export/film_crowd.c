@@ -116,6 +116,21 @@ static void draw_ground(const ff_recording *recording, const ff_camera *camera, 
         }
 }
 
+/* The places of goals, on the ground. */
+static void draw_goals(const ff_scene *scene, const ff_camera *camera, ff_raster *raster)
+{
+    static const ff_colour patch = {232, 222, 186};
+    const ff_goal_def *goals = scene->behaviour.goals.data;
+    for (size_t i = 0; i < scene->behaviour.goals.count; ++i) {
+        ff_vec2 outline[FF_OUTLINE_MOST];
+        ff_vec3 corners[FF_OUTLINE_MOST];
+        uint32_t count = ff_region_outline(&goals[i].place, outline);
+        for (uint32_t c = 0; c < count; ++c)
+            corners[c] = ff_ground(outline[c], 0.0);
+        ff_raster_ground(raster, camera, corners, (int)count, patch);
+    }
+}
+
 /* A wall is a standing sheet, seen from both sides. */
 static void draw_walls(const ff_scene *scene, const ff_camera *camera, ff_raster *raster)
 {
@@ -138,6 +153,7 @@ void ff_film_crowd_draw(ff_stage *stage, const ff_scene *scene, const ff_recordi
 {
     ff_raster_clear(raster, (ff_colour){228, 232, 236}, (ff_colour){206, 205, 199});
     draw_ground(recording, camera, raster);
+    draw_goals(scene, camera, raster);
     uint32_t step = pose * recording->pose_stride;
     for (int pass = 0; pass < 2; ++pass) { /* all shadows first: nobody's shadow falls on a body */
         for (uint32_t i = 0; i < recording->agent_count; ++i) {

@@ -43,3 +43,17 @@ double ff_ground_tile(double width, double depth)
         tile *= 10.0;
     return tile;
 }
+
+uint32_t ff_region_outline(const ff_region *region, ff_vec2 out[FF_OUTLINE_MOST])
+{
+    static const double side[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    if (region->shape == FF_REGION_POINT) return 0;
+    uint32_t count = region->shape == FF_REGION_BOX ? 4 : FF_OUTLINE_MOST;
+    for (uint32_t i = 0; i < count; ++i) {
+        ff_vec2 corner = region->shape == FF_REGION_BOX
+                             ? ff_v2(side[i][0] * region->half.a, side[i][1] * region->half.b)
+                             : ff_scale2(ff_fwd2(FF_TAU * i / FF_OUTLINE_MOST), region->half.a);
+        out[i] = ff_add2(region->centre, ff_from_frame2(ff_fwd2(region->heading), corner));
+    }
+    return count;
+}

@@ -69,6 +69,21 @@ static void draw_grid(ff_picture *picture, const map *m)
                         to_pixel(m, ff_v2(m->high.a, k * every)), 1.0, faint);
 }
 
+/* The places of goals. */
+static void draw_goals(ff_picture *picture, const map *m, const ff_scene *scene)
+{
+    static const ff_colour patch = {240, 230, 196};
+    const ff_goal_def *goals = scene->behaviour.goals.data;
+    for (size_t i = 0; i < scene->behaviour.goals.count; ++i) {
+        ff_vec2 outline[FF_OUTLINE_MOST];
+        ff_pixel corners[FF_OUTLINE_MOST];
+        uint32_t count = ff_region_outline(&goals[i].place, outline);
+        for (uint32_t c = 0; c < count; ++c)
+            corners[c] = to_pixel(m, outline[c]);
+        if (count > 0) ff_picture_polygon(picture, corners, (int)count, patch);
+    }
+}
+
 static void draw_scale_bar(ff_picture *picture, const map *m, int width, int height)
 {
     double metres = 1.0; /* 1, 2, 5, 10 ...: the first that is long enough to see */
@@ -139,6 +154,7 @@ ff_status ff_trajectories_write(const char *path, const ff_scene *scene, const f
     ff_status status = points ? ff_picture_create(width, height, paper, &picture, error)
                               : ff_fail(error, FF_ERR_NO_MEMORY, "no memory to draw %s", path);
     if (status == FF_OK) {
+        draw_goals(picture, &m, scene);
         draw_grid(picture, &m);
         for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i)
             ff_picture_line(picture, to_pixel(&m, ff_scene_walls(scene)[i].p),

@@ -92,7 +92,9 @@ void ff_watch_caption(const ff_scene *scene, const ff_recording *recording, char
 {
     double seconds = (recording->step_count - 1) * recording->step;
     uint32_t reached = ff_watch_reached(recording);
-    if (ff_scene_has_behaviour(scene))
+    if (ff_scene_has_behaviour(scene) && reached == 0)
+        snprintf(text, size, "%u people, %.1f s", recording->agent_count, seconds);
+    else if (ff_scene_has_behaviour(scene))
         snprintf(text, size, "%u people, %u of whom left, in %.1f s", recording->agent_count, reached,
                  seconds);
     else

@@ -63,6 +63,11 @@ the_behaviour_of_the_readme_runs() {
         wanted && /^```jsonc$/ { inside = 1 }' runtime/scenes/README.md | sed '1s/{/{"kind": "custom", "seconds": 1,/' >"$work/behaviour.json"
     run 0 "$crowd" run "$work/behaviour.json" --pack "$builtin" --out "$work/behaviour" --quiet && silent err
 }
+states_that_lead_round_without_time_end_the_run() {
+    printf '{"kind": "circle", "agents": 2, "behaviour": "b", "behaviours": {"b": {"start": "Here", "states": {\n"Here": {"next": [{"when": "always", "to": "There"}]},\n"There": {"next": [{"when": {"timer": 0}, "to": "Here"}]}}}}}' >"$work/round.json"
+    run 1 "$crowd" run "$work/round.json" --pack "$builtin" --out "$work/round" --quiet &&
+        says err "agent 0 went through more than 8 states at 0.00 s" && says err "without any time passing"
+}
 a_scene_of_kilometres_is_drawn() {
     printf '{"kind": "custom", "agents": [{"position": [0, 0], "goal": [0, 4000]}, {"position": [9000, 0], "goal": [0, 0]}]}' >"$work/far.json"
     run 0 "$crowd" run "$work/far.json" --pack "$builtin" --out "$work/far" --seconds 1 --quiet && silent err
@@ -91,6 +96,7 @@ test_that "the bidirectional flow runs" scene_runs bidirectional 53
 test_that "the four-way crossflow runs" scene_runs four-way 100
 test_that "the crossing runs" scene_runs crossing 32 people
 test_that "the behaviour of the README runs" the_behaviour_of_the_readme_runs
+test_that "states that lead round without time end the run, with the agent and the state" states_that_lead_round_without_time_end_the_run
 test_that "a circle arrives and the run ends" a_circle_arrives_and_the_run_ends
 test_that "people leave where the scene says so" people_leave_where_the_scene_says_so
 test_that "walls are walked round" walls_are_walked_round
