@@ -24,7 +24,7 @@ typedef struct ff_legs {
  * 4.5), so that the knee never snaps straight. */
 double ff_leg_soft_reach(double distance, double leg_length);
 
-/* The same for a leg in the air, which need not arrive: eases from 0.965 of the leg to 0.993, so that a foot that is flung
+/* The same for a leg in the air, which need not arrive: eases from 0.95 of the leg to 0.993, so that a foot that is flung
  * ahead does not stop short where the leg ends. share: 0 reaches like a standing leg, 1 eases fully. */
 double ff_leg_swing_reach(double distance, double leg_length, double share);
 
