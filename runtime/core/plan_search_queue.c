@@ -100,12 +100,17 @@ uint32_t ff_search_pop(ff_search *s)
 
 /* ------------------------------------------------------------------------------------------------------- places */
 
+/* The whole number nearest to x, for x within a few thousand: floorf is a call. */
+static uint32_t nearest(float x)
+{
+    return (uint32_t)(int32_t)(x + 8192.5f) - 8192u;
+}
+
 static uint64_t place_key(const ff_search *s, const ff_search_node *n)
 {
-    uint64_t key = (uint64_t)(uint32_t)(int32_t)floorf(n->at[0] / PLACE + 0.5f) & 0xffffu;
-    key = key << 16 | ((uint64_t)(uint32_t)(int32_t)floorf(n->at[1] / PLACE + 0.5f) & 0xffffu);
-    int32_t turn = (int32_t)floorf(n->heading / PLACE_TURN + 0.5f) % 12;
-    key = key << 4 | (uint64_t)(turn < 0 ? turn + 12 : turn);
+    uint64_t key = nearest(n->at[0] * (1.0f / PLACE)) & 0xffffu;
+    key = key << 16 | (nearest(n->at[1] * (1.0f / PLACE)) & 0xffffu);
+    key = key << 4 | (nearest(n->heading * (1.0f / PLACE_TURN)) + 12u * 600u) % 12u;
     const ff_set_action *a = &s->set->actions[n->action];
     key = key << 4 | (uint64_t)(a->support | (uint32_t)a->kind << 1);
     bool moving = s->memory->sight.count > 0 || s->memory->sight.mover_count > 0;

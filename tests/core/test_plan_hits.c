@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "tests/core/plan_world.h"
 
+#include "runtime/core/plan_body.h"
 #include "runtime/core/plan_hit.h"
 
 #include <stdio.h>
@@ -255,6 +256,84 @@ static void jumps_and_ducks_are_thought_of_only_when_asked_for(void **state)
     assert_int_equal(all - steps, a->next_count - a->step_count);
 }
 
+static void bodies_of_capsules_are_where_their_colliders_are(void **state)
+{
+    const plan_world *w = *state;
+    ff_plan plan;
+    ff_error error;
+    ff_plan_stand(w->set, ff_v2(20.0, 5.0), 1.0, 0.0, &plan);
+    const ff_plan_world world = {0};
+    ff_plan_goal goal = ff_plan_goal_at(ff_v2(17.0, 6.0));
+    ff_plan_options options = ff_plan_options_default();
+    ff_plan_search(w->set, &world, &plan, 0.0, &goal, &options, w->scratch, &plan);
+    for (double t = 0.0; t < plan.steps[plan.count - 1].start + 0.5; t += 0.07) {
+        uint32_t step = ff_plan_step_at(&plan, t);
+        if (!plan.steps[step].hold && t - plan.steps[step].start < 0.2)
+            continue; /* joins move colliders one by one */
+        ff_body_capsule body[FF_BODY_CAPSULES];
+        ff_vec3 at[FF_COLLIDER_COUNT];
+        FF_ASSERT_OK(ff_plan_body_at(w->set, &plan, t, body, &error), error);
+        ff_plan_colliders(w->set, &plan, t, at);
+        for (int c = 0; c < FF_COLLIDER_ROOT; ++c) {
+            ff_vec3 there = ff_ground(ff_v2(at[c].x, at[c].y), at[c].z);
+            double nearest = INFINITY;
+            for (int i = 0; i < FF_BODY_CAPSULES; ++i)
+                for (int k = 0; k <= 10; ++k)
+                    nearest = ff_min(
+                        nearest, ff_length3(ff_sub3(ff_lerp3(body[i].from, body[i].to, k / 10.0), there)));
+            FF_ASSERT_BELOW(nearest, 0.06); /* a tenth of a second between samples of the colliders */
+        }
+    }
+}
+
+static void bodies_that_stand_are_as_far_apart_as_they_should(void **state)
+{
+    const plan_world *w = *state;
+    ff_error error;
+    double last = -INFINITY;
+    for (int n = 0; n <= 10; ++n) {
+        ff_plan x, y;
+        ff_plan_stand(w->set, ff_v2(0.0, 0.0), 0.0, 0.0, &x);
+        ff_plan_stand(w->set, ff_v2(0.2 + 0.2 * n, 0.0), FF_PI, 0.0, &y);
+        double gap, when;
+        FF_ASSERT_OK(ff_plan_bodies_gap(w->set, &x, &y, 1.0, 1.5, &gap, &when, &error), error);
+        assert_true(gap > last);
+        if (n == 0) assert_true(gap < 0.0);
+        if (n > 0 && n < 10) assert_true(gap < 0.2 + 0.2 * n && gap > 0.2 * n - 0.5);
+        last = gap;
+    }
+}
+
+static void plans_that_are_free_keep_bodies_apart(void **state)
+{
+    const plan_world *w = *state;
+    int met = 0, pairs = 0;
+    double deepest = 0.0;
+    for (int n = 0; n < 30; ++n) {
+        ff_random random = {53, (uint64_t)n, 0};
+        ff_plan plan[2];
+        ff_track track;
+        ff_error error;
+        ff_plan_options options = ff_plan_options_default();
+        const ff_track *seen[1] = {&track};
+        for (int i = 0; i < 2; ++i) {
+            ff_plan_stand(w->set, ff_v2(i ? 2.5 : -2.5, 0.0), i ? FF_PI : 0.0, 0.0, &plan[i]);
+            ff_plan_goal goal = ff_plan_goal_at(ff_v2(i ? -2.5 : 2.5, between(-0.5, 0.5, &random)));
+            const ff_plan_world world = {.tracks = seen, .track_count = (uint32_t)i};
+            ff_plan_search(w->set, &world, &plan[i], 0.0, &goal, &options, w->scratch, &plan[i]);
+            if (i == 0) ff_plan_track(w->set, &plan[0], 0.0, &track);
+        }
+        double gap, when;
+        FF_ASSERT_OK(ff_plan_bodies_gap(w->set, &plan[0], &plan[1], 0.0, 8.0, &gap, &when, &error), error);
+        ++pairs;
+        met += gap < 0.0;
+        deepest = ff_max(deepest, -gap);
+    }
+    printf("  %d of %d pairs' bodies touch, at most %.1f cm\n", met, pairs, 100.0 * deepest);
+    assert_true(met <= 3);
+    FF_ASSERT_BELOW(deepest, 0.05);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -263,6 +342,9 @@ int main(void)
         cmocka_unit_test(heights_and_round_tops_count),
         cmocka_unit_test(a_track_runs_straight_between_where_the_colliders_are),
         cmocka_unit_test(two_tracks_conflict_exactly_where_they_touch),
+        cmocka_unit_test(bodies_of_capsules_are_where_their_colliders_are),
+        cmocka_unit_test(bodies_that_stand_are_as_far_apart_as_they_should),
+        cmocka_unit_test(plans_that_are_free_keep_bodies_apart),
         cmocka_unit_test(jumps_and_ducks_are_thought_of_only_when_asked_for),
     };
     return cmocka_run_group_tests(tests, plan_world_open, plan_world_close);
