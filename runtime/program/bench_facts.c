@@ -3,19 +3,19 @@
 #include "runtime/export/gait_facts.h"
 #include "runtime/export/scene.h"
 #include "runtime/program/bench.h"
+#include "runtime/program/bench_options.h"
 #include "runtime/program/walk_drive.h"
-#include "runtime/tool/command_line.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-#define PROGRAM "footfall-crowd"
 #define STEP (1.0 / 120.0) /* s, as the reference was captured */
 #define SECONDS 30.0
 #define SETTLE 4.0 /* s, left out */
 
 typedef struct facts_options {
-    const char *pack, *synthesis, *json;
+    ff_bench_options common;
+    const char *synthesis;
     int64_t seed;
 } facts_options;
 
@@ -104,44 +104,35 @@ static int run_facts(const facts_options *options, ff_synthesis synthesis)
     ff_error error = {0};
     ff_pack *pack = NULL;
     facts_table table;
-    ff_status status = ff_pack_open(options->pack, &pack, &error);
+    ff_status status = ff_pack_open(options->common.pack, &pack, &error);
     if (status == FF_OK) status = fill(pack, options, synthesis, &table, &error);
     if (status == FF_OK) print_table(&table);
-    if (status == FF_OK && options->json)
-        status = ff_bench_write_json(options->json, table_json(&table), &error);
+    if (status == FF_OK && options->common.json)
+        status = ff_bench_write_json(options->common.json, table_json(&table), &error);
     ff_pack_close(pack);
-    return status == FF_OK ? FF_EXIT_OK : ff_command_fail(PROGRAM, &error);
+    return status == FF_OK ? FF_EXIT_OK : ff_command_fail(FF_BENCH_PROGRAM, &error);
 }
 
 int ff_bench_facts_main(int argc, char **argv)
 {
     facts_options given = {.synthesis = "blending", .seed = 1};
-    ff_option options[] = {
-        {.name = "--pack", .alias = "-p", .value_name = "FILE", .help = "motion pack", .text = &given.pack},
-        {.name = "--synthesis",
-         .value_name = "NAME",
-         .help = "blending (default) or semi-procedural",
-         .text = &given.synthesis},
-        {.name = "--seed",
-         .value_name = "N",
-         .help = "of the walker's own style (default 1)",
-         .integer = &given.seed,
-         .low = 0,
-         .high = 1e9},
-        {.name = "--json", .value_name = "FILE", .help = "the table as JSON", .text = &given.json},
-        {0}};
-    const ff_command command = {.program = PROGRAM,
-                                .name = "bench facts",
-                                .arguments = "",
-                                .summary = "straight walks beside what people do",
-                                .options = options};
-    ff_operands operands;
-    int status = ff_command_parse(&command, argc, argv, &operands);
+    const ff_option own[] = {{.name = "--synthesis",
+                              .value_name = "NAME",
+                              .help = "blending (default) or semi-procedural",
+                              .text = &given.synthesis},
+                             {.name = "--seed",
+                              .value_name = "N",
+                              .help = "of the walker's own style (default 1)",
+                              .integer = &given.seed,
+                              .low = 0,
+                              .high = 1e9},
+                             {0}};
+    const ff_bench_command command = {
+        .name = "bench facts", .summary = "straight walks beside what people do", .own = own};
+    int status = ff_bench_parse(&command, argc, argv, &given.common);
     if (status >= 0) return status;
-    if (!given.pack) return ff_command_misuse(&command, "--pack FILE is missing");
     ff_synthesis synthesis = ff_synthesis_named(given.synthesis);
     if (synthesis == FF_SYNTHESIS_CROWD)
-        return ff_command_misuse(&command, "--synthesis is '%.40s'; it can be blending or semi-procedural",
-                                 given.synthesis);
+        return ff_bench_misuse(&command, "--synthesis", given.synthesis, "blending or semi-procedural");
     return run_facts(&given, synthesis);
 }

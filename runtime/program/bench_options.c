@@ -33,9 +33,12 @@ static void add_seeds(option_list *list, const char *help, ff_bench_options *opt
 
 static void add_outputs(option_list *list, const char *files, ff_bench_options *options)
 {
-    add(list,
-        (ff_option){
-            .name = "--out", .alias = "-o", .value_name = "FOLDER", .help = files, .text = &options->out});
+    if (files)
+        add(list, (ff_option){.name = "--out",
+                              .alias = "-o",
+                              .value_name = "FOLDER",
+                              .help = files,
+                              .text = &options->out});
     add(list,
         (ff_option){
             .name = "--json", .value_name = "FILE", .help = "the table as JSON", .text = &options->json});

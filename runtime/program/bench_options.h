@@ -15,7 +15,7 @@ typedef struct ff_bench_options {
 
 typedef struct ff_bench_command {
     const char *name, *summary; /* "bench fig7" */
-    const char *files;          /* help of --out */
+    const char *files;          /* help of --out; NULL: a bench without it */
     const char *seeds;          /* help of --seeds; NULL: a bench without --seeds and --first-seed */
     const char *threads;        /* help of --threads; NULL: a bench without it */
     const ff_option *own;       /* the bench's own options, ended by a zeroed one; NULL: none */

@@ -8,23 +8,22 @@
 #include "runtime/export/scene.h"
 #include "runtime/export/text.h"
 #include "runtime/program/bench.h"
+#include "runtime/program/bench_options.h"
 #include "runtime/program/walk_drive.h"
-#include "runtime/tool/command_line.h"
-#include "runtime/tool/progress.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define PROGRAM "footfall-crowd"
 #define SKATE_MEDIAN 0.001 /* m per plant */
 #define SKATE_P95 0.003
 #define RARE 1e-4 /* of all poses, that may be above a bar: commands that nobody would give make some */
 #define FILM_SECONDS 12.0 /* of each course */
 
 typedef struct walk_options {
-    const char *pack, *course, *synthesis, *out, *json;
+    ff_bench_options common;
+    const char *course, *synthesis;
     double seconds, step;
     int64_t seed;
     bool examples, check;
@@ -117,7 +116,7 @@ static ff_status film(const walk_bench *bench, const char *name, const ff_record
 {
     char path[4096], part[80];
     file_name(name, part, sizeof part);
-    snprintf(path, sizeof path, "%s/%s.png", bench->options->out, part);
+    snprintf(path, sizeof path, "%s/%s.png", bench->options->common.out, part);
     return ff_film_walk_write(path, &bench->figure, recording, name, error);
 }
 
@@ -128,7 +127,7 @@ static ff_status walk_course(const walk_bench *bench, walk_row *row, ff_error *e
     ff_status status = FF_OK;
     if (!watch.meters)
         return ff_fail(error, FF_ERR_NO_MEMORY, "no memory to watch %u walkers", row->course->walkers);
-    if (bench->options->out) {
+    if (bench->options->common.out) {
         double step = bench->options->step;
         status = ff_recording_create(1, bench->figure.joint_count, step, (uint64_t)(FILM_SECONDS / step) + 2,
                                      &recording, error);
@@ -257,24 +256,24 @@ static int run_walk(const walk_options *options, ff_synthesis synthesis)
 {
     ff_error error = {0};
     walk_bench bench = {.options = options, .synthesis = synthesis, .rows = json_array()};
-    ff_status status = ff_pack_open(options->pack, &bench.pack, &error);
+    ff_status status = ff_pack_open(options->common.pack, &bench.pack, &error);
     if (status == FF_OK) status = ff_figure_from_pack(bench.pack, &bench.figure, &error);
     if (status == FF_OK)
         status = ff_gait_standard_make(bench.pack, &bench.figure, options->step, &bench.standard, &error);
-    if (status == FF_OK && options->out) status = ff_folder_create(options->out, &error);
+    if (status == FF_OK && options->common.out) status = ff_folder_create(options->common.out, &error);
     if (status == FF_OK) status = walk_all(&bench, &error);
-    if (status == FF_OK && options->json) {
+    if (status == FF_OK && options->common.json) {
         json_t *all =
             json_pack("{s:s, s:s, s:f, s:f, s:O}", "bench", "walk", "synthesis", ff_synthesis_name(synthesis),
                       "seconds", options->seconds, "dt", options->step, "rows", bench.rows);
-        status = ff_bench_write_json(options->json, all, &error);
+        status = ff_bench_write_json(options->common.json, all, &error);
     }
     json_decref(bench.rows);
     free(bench.examples);
     ff_pack_close(bench.pack);
-    if (status != FF_OK) return ff_command_fail(PROGRAM, &error);
+    if (status != FF_OK) return ff_command_fail(FF_BENCH_PROGRAM, &error);
     if (options->check && bench.broken > 0) {
-        fprintf(stderr, PROGRAM ": %u of %u courses break a bar\n", bench.broken, bench.walked);
+        fprintf(stderr, FF_BENCH_PROGRAM ": %u of %u courses break a bar\n", bench.broken, bench.walked);
         return FF_EXIT_FAILURE;
     }
     return FF_EXIT_OK;
@@ -283,8 +282,7 @@ static int run_walk(const walk_options *options, ff_synthesis synthesis)
 int ff_bench_walk_main(int argc, char **argv)
 {
     walk_options given = {.synthesis = "blending", .seconds = 60.0, .step = 1.0 / 60.0, .seed = 1};
-    ff_option options[] = {
-        {.name = "--pack", .alias = "-p", .value_name = "FILE", .help = "motion pack", .text = &given.pack},
+    const ff_option own[] = {
         {.name = "--course",
          .value_name = "NAME",
          .help = "only courses with this in their name",
@@ -315,26 +313,17 @@ int ff_bench_walk_main(int argc, char **argv)
          .low = 0,
          .high = 1e9},
         {.name = "--check", .help = "fail when a course that is walked breaks a bar", .flag = &given.check},
-        {.name = "--out",
-         .alias = "-o",
-         .value_name = "FOLDER",
-         .help = "where a film of each course goes, as pictures; made if missing",
-         .text = &given.out},
-        {.name = "--json", .value_name = "FILE", .help = "the table as JSON", .text = &given.json},
         {0}};
-    const ff_command command = {.program = PROGRAM,
-                                .name = "bench walk",
-                                .arguments = "",
-                                .summary = "how people walk: feet, knees, joints, on courses of every kind",
-                                .options = options};
-    ff_operands operands;
-    int status = ff_command_parse(&command, argc, argv, &operands);
+    const ff_bench_command command = {
+        .name = "bench walk",
+        .summary = "how people walk: feet, knees, joints, on courses of every kind",
+        .files = "where a film of each course goes, as pictures; made if missing",
+        .own = own};
+    int status = ff_bench_parse(&command, argc, argv, &given.common);
     if (status >= 0) return status;
-    if (!given.pack) return ff_command_misuse(&command, "--pack FILE is missing");
     ff_synthesis synthesis = ff_synthesis_named(given.synthesis);
     if (synthesis == FF_SYNTHESIS_CROWD)
-        return ff_command_misuse(&command,
-                                 "--synthesis is '%.40s'; it can be blending, semi-procedural or hybrid",
-                                 given.synthesis);
+        return ff_bench_misuse(&command, "--synthesis", given.synthesis,
+                               "blending, semi-procedural or hybrid");
     return run_walk(&given, synthesis);
 }
