@@ -197,6 +197,7 @@ static void the_standing_foot_is_asked_of_the_gait(void **state)
     ff_gait gait = {0};
     ff_vec2 ball = ff_v2(9.0, 9.0);
     double heading = 9.0;
+    gait.style.scale = 1.0;
     gait.foot[0].planted = gait.foot[1].planted = 1;
     assert_int_equal(ff_gait_stance(&gait, &ball, &heading), -1);
     gait.foot[0].planted = 0;
