@@ -312,10 +312,5 @@ ff_status ff_amc_parse(const ff_asf *asf, const char *data, size_t size, const c
     free(r.values);
     free(r.sine);
     free(r.cosine);
-    out->unit_m = 1.0;
-    if (status != FF_OK) {
-        ff_error_in_file(error, name);
-        ff_clip_free(out);
-    }
-    return status;
+    return ff_clip_read_end(status, name, out, error);
 }

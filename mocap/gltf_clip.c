@@ -240,10 +240,5 @@ ff_status ff_gltf_parse(const char *data, size_t size, const char *name, const c
     ff_gltf_motion_free(&motion);
     ff_gltf_skeleton_free(&skeleton);
     ff_gltf_close(&gltf);
-    out->unit_m = 1.0;
-    if (status != FF_OK) {
-        ff_error_in_file(error, name);
-        ff_clip_free(out);
-    }
-    return status;
+    return ff_clip_read_end(status, name, out, error);
 }

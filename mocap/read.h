@@ -12,6 +12,10 @@
 ff_status ff_bvh_parse(const char *data, size_t size, const char *name, const ff_load_options *options,
                        ff_clip *out, ff_error *error);
 
+/* How every reader ends: the clip is in file units; of a failure the error names the file and the clip is freed. Returns
+ * status. */
+ff_status ff_clip_read_end(ff_status status, const char *name, ff_clip *out, ff_error *error);
+
 /* A bone of an ASF as a joint at the bone's START that turns by C M C^-1 (algorithms A.2). */
 typedef struct ff_asf_bone {
     char name[64];

@@ -37,3 +37,12 @@ void ff_clip_trim(ff_clip *clip, int capacity)
 {
     if (capacity > clip->frame_count) resize(clip, (size_t)clip->frame_count);
 }
+
+ff_status ff_clip_read_end(ff_status status, const char *name, ff_clip *out, ff_error *error)
+{
+    out->unit_m = 1.0;
+    if (status == FF_OK) return FF_OK;
+    ff_error_in_file(error, name);
+    ff_clip_free(out);
+    return status;
+}

@@ -1,4 +1,5 @@
 #include "preprocess/build.h"
+#include "preprocess/each_clip.h"
 
 #include "runtime/core/base/file.h"
 #include "runtime/tool/command_line.h"
@@ -184,12 +185,7 @@ int ff_build_command(int argc, char **argv)
          .help = "keep results of clips there; default: FILE" CACHE_ENDING,
          .text = &words.cache},
         {.name = "--no-cache", .help = "work everything out, keep nothing", .flag = &words.no_cache},
-        {.name = "--threads",
-         .value_name = "N",
-         .help = "threads to use; the pack does not depend on it",
-         .integer = &words.threads,
-         .low = 1,
-         .high = 256},
+        FF_THREADS_OPTION(words.threads),
         {.name = "--rate",
          .value_name = "HZ",
          .help = "poses per second of the clips in the pack",

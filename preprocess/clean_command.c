@@ -235,12 +235,7 @@ int ff_clean_command(int argc, char **argv)
     ff_clip_run run = {.program = PROGRAM, .what = "cleaning"};
     int64_t threads = ff_processor_count();
     ff_option options[] = {{.name = "--csv", .help = "one line per clip, with a header", .flag = &csv},
-                           {.name = "--threads",
-                            .value_name = "N",
-                            .help = "threads to use; what is found does not depend on it",
-                            .integer = &threads,
-                            .low = 1,
-                            .high = 256},
+                           FF_THREADS_OPTION(threads),
                            FF_CONFIG_OPTION(run),
                            FF_QUIET_OPTION(run),
                            {0}};

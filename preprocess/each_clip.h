@@ -24,6 +24,12 @@ typedef struct ff_clip_run {
         .name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &(run).quiet              \
     }
 
+#define FF_THREADS_OPTION(threads)                                                                           \
+    {                                                                                                        \
+        .name = "--threads", .value_name = "N", .help = "threads to use; the result does not depend on it",  \
+        .integer = &(threads), .low = 1, .high = 256                                                         \
+    }
+
 /* Every entry of the inputs (files, folders, catalogues) is visited; the ones that fail are named on stderr and make the
  * exit status, which is returned, 1. */
 typedef ff_status (*ff_entry_visit)(const ff_catalogue_entry *entry, void *context, ff_error *error);

@@ -1,5 +1,6 @@
 #include "preprocess/validate_command.h"
 
+#include "preprocess/each_clip.h"
 #include "preprocess/validate.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
@@ -82,17 +83,10 @@ static ff_status validate(const ff_pack *pack, const ff_operands *inputs, uint32
 
 int ff_validate_command(int argc, char **argv)
 {
-    bool quiet = false, good = false;
+    bool good = false;
+    ff_clip_run run = {.program = PROGRAM, .what = "checking"};
     int64_t threads = ff_processor_count();
-    ff_option options[] = {
-        {.name = "--threads",
-         .value_name = "N",
-         .help = "threads to use",
-         .integer = &threads,
-         .low = 1,
-         .high = 256},
-        {.name = "--quiet", .alias = "-q", .help = "no progress on stderr", .flag = &quiet},
-        {0}};
+    ff_option options[] = {FF_THREADS_OPTION(threads), FF_QUIET_OPTION(run), {0}};
     ff_command command = {
         .program = PROGRAM,
         .name = "validate",
@@ -116,7 +110,7 @@ int ff_validate_command(int argc, char **argv)
     int result = ff_command_parse(&command, argc, argv, &operands);
     if (result >= 0) return result;
     if (ff_pack_open(operands.items[0], &pack, &error) != FF_OK) return ff_command_fail(PROGRAM, &error);
-    ff_status status = validate(pack, &operands, (uint32_t)threads, quiet, &good, &error);
+    ff_status status = validate(pack, &operands, (uint32_t)threads, run.quiet, &good, &error);
     ff_pack_close(pack);
     if (status != FF_OK) return ff_command_fail(PROGRAM, &error);
     printf("%s\n", good ? "the pack is sound" : "the pack is NOT as it should be");
