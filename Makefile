@@ -183,7 +183,8 @@ soak: ## fuzz long: 500,000 runs of every target (FUZZ_RUNS=N); an hour of every
 	+$(MAKE) programs $(B)/builtin.ffpack
 	for way in hybrid semi-procedural; do $(walk_soak) --synthesis $$way || exit 1; done
 	$(walk_soak) --check
-	+$(MAKE) $(B)/tests/export/test_scene_bits
+	+$(MAKE) $(B)/tests/export/test_scene_bits $(B)/tests/core/test_footsteps
+	FF_WALLS=1000 FF_TEST_SECONDS=3600 scripts/run-tests.sh $(B):$(B)/tests/core/test_footsteps
 	FF_SCENE_STEPS=10000 FF_TEST_SECONDS=7200 scripts/run-tests.sh $(B):$(B)/tests/export/test_scene_bits
 	$(build_fuzzers)
 	FF_FUZZ_RUNS=$(or $(FUZZ_RUNS),500000) scripts/run-tests.sh $(run_fuzzers)

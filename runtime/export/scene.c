@@ -20,8 +20,8 @@ const char *ff_scene_kind_name(ff_scene_kind kind)
 #define COMMON_KEYS                                                                                          \
     "kind", "title", "seconds", "step", "seed", "at_goal", "agents", "agent_radius", "preferred_speed",      \
         "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "synthesis", "body_scale", "mcn", \
-        "baseline", "goals", "regions", "signals", "variables", "behaviours", "behaviour", "groups",         \
-        "spawners"
+        "baseline", "planner", "obstacles", "goals", "regions", "signals", "variables", "behaviours",        \
+        "behaviour", "groups", "spawners"
 
 static const char *const circle_keys[] = {COMMON_KEYS, "radius", "jitter", NULL};
 static const char *const two_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "distance", NULL};
@@ -31,9 +31,9 @@ static const char *const four_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "s
 static const char *const custom_keys[] = {COMMON_KEYS, NULL};
 static const char *const *const kind_keys[FF_SCENE_KIND_COUNT] = {
     circle_keys, two_way_keys, bidirectional_keys, four_way_keys, custom_keys};
-static const char *const agent_keys[] = {"position",        "goal",      "heading_degrees",
-                                         "preferred_speed", "radius",    "navigation",
-                                         "synthesis",       "behaviour", NULL};
+static const char *const agent_keys[] = {
+    "position",  "goal",      "heading_degrees", "preferred_speed", "radius", "navigation",
+    "synthesis", "behaviour", "planner",         "waypoints",       NULL};
 
 static ff_status read_kind(const ff_json *json, ff_scene_def *def, ff_error *error)
 {
@@ -168,6 +168,8 @@ static ff_status read_agent(const ff_json *json, const json_t *object, const ff_
     TRY(ff_json_number(json, object, "radius", 0.1, 1.0, &out->radius, error));
     TRY(ff_scene_method_read(json, object, &out->navigation, error));
     TRY(ff_scene_synthesis_read(json, object, &out->synthesis, error));
+    TRY(ff_scene_planner_read(json, object, &out->planner, error));
+    TRY(ff_scene_waypoints_read(json, object, out, error));
     ff_vec2 way = ff_sub2(out->goal, out->position);
     out->heading = isfinite(degrees) ? degrees * FF_DEG : ff_atan2(way.b, way.a);
     return status;
@@ -211,6 +213,7 @@ static ff_status read_scene(const ff_json *json, ff_scene_def *def, ff_error *er
     TRY(ff_scene_navigation_read(json, &def->navigation, error));
     TRY(read_sizes(json, def, error));
     TRY(read_walls(json, def, error));
+    TRY(ff_scene_obstacles_read(json, &def->obstacles, error));
     TRY(read_behaviour(json, def, error));
     if (def->kind == FF_SCENE_CUSTOM) TRY(read_fixed(json, def, error));
     return status;
@@ -271,6 +274,7 @@ ff_status ff_scene_def_parse(const char *text, size_t size, const char *name, ff
 void ff_scene_def_free(ff_scene_def *def)
 {
     ff_array_free(&def->walls);
+    ff_array_free(&def->obstacles);
     ff_array_free(&def->fixed);
     ff_array_free(&def->crowds);
     ff_scene_behaviour_free(&def->behaviour);

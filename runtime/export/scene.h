@@ -25,12 +25,16 @@ typedef struct ff_scene_agent {
     uint32_t machine;       /* that it follows; FF_NONE: it goes to its goal */
     ff_navigation navigation;
     ff_synthesis synthesis;
+    ff_planner planner;
+    uint32_t waypoint_count;
+    ff_vec2 waypoints[FF_WAYPOINTS_MAX]; /* m, on the way to the goal */
 } ff_scene_agent;
 
 /* How everyone finds their way and walks: the crowd's definition has the same members. */
 typedef struct ff_scene_navigation {
     ff_navigation method;
     ff_synthesis synthesis;
+    ff_planner planner;
     double body_scale; /* bodies differ in size by up to so much */
     double keep_right; /* rad, of MCN */
     ff_mcn_def mcn;
@@ -52,10 +56,11 @@ typedef struct ff_scene_def {
     int64_t agents;
     double agent_radius, preferred_speed, speed_spread, goal_tolerance;
     double radius, spacing, jitter, distance, square, corridor_width, corridor_length;
-    ff_array walls;   /* ff_scene_wall */
-    ff_array fixed;   /* ff_scene_agent, of a custom scene */
-    ff_array crowds;  /* ff_scene_group */
-    uint32_t machine; /* of the agents of a layout; FF_NONE */
+    ff_array walls;     /* ff_scene_wall */
+    ff_array obstacles; /* ff_obstacle_def */
+    ff_array fixed;     /* ff_scene_agent, of a custom scene */
+    ff_array crowds;    /* ff_scene_group */
+    uint32_t machine;   /* of the agents of a layout; FF_NONE */
     ff_scene_behaviour behaviour;
 } ff_scene_def;
 
@@ -66,8 +71,9 @@ typedef struct ff_scene {
     uint64_t seed;
     bool leave;
     ff_scene_navigation navigation;
-    ff_array agents; /* ff_scene_agent: of the start; spawners add to it while the scene runs */
-    ff_array walls;  /* ff_scene_wall */
+    ff_array agents;    /* ff_scene_agent: of the start; spawners add to it while the scene runs */
+    ff_array walls;     /* ff_scene_wall */
+    ff_array obstacles; /* ff_obstacle_def */
     ff_scene_behaviour behaviour;
     uint32_t groups;
     uint32_t most;         /* people at a time */
@@ -97,6 +103,11 @@ ff_status ff_scene_method_read(const ff_json *json, const json_t *object, ff_nav
 ff_status ff_scene_synthesis_read(const ff_json *json, const json_t *object, ff_synthesis *out,
                                   ff_error *error);
 
+/* Footsteps (scene_footsteps.c): "planner" of the scene or of one of its agents, an agent's "waypoints", the scene's "obstacles". */
+ff_status ff_scene_planner_read(const ff_json *json, const json_t *object, ff_planner *out, ff_error *error);
+ff_status ff_scene_waypoints_read(const ff_json *json, const json_t *object, ff_scene_agent *out,
+                                  ff_error *error);
+ff_status ff_scene_obstacles_read(const ff_json *json, ff_array *out, ff_error *error);
 /* Whether people do something there beside going to their goals. */
 static inline bool ff_scene_has_behaviour(const ff_scene *scene)
 {

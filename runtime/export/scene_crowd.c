@@ -1,5 +1,7 @@
 #include "runtime/export/scene_crowd.h"
 
+#define FF_SCENE_OBSTACLE_WALLS 8 /* that velocity navigation sees of one, at most */
+
 ff_crowd_def ff_scene_crowd_def(const ff_scene *scene, ff_behaviour_def *behaviour)
 {
     ff_crowd_def def = ff_crowd_def_default();
@@ -10,6 +12,12 @@ ff_crowd_def ff_scene_crowd_def(const ff_scene *scene, ff_behaviour_def *behavio
     def.keep_right = scene->navigation.keep_right;
     def.navigation = scene->navigation.method;
     def.synthesis = scene->navigation.synthesis;
+    def.planner = scene->navigation.planner;
+    const ff_scene_agent *agents = ff_scene_agents(scene);
+    for (uint32_t i = 0; i < ff_scene_agent_count(scene); ++i)
+        def.footsteps.mixed = def.footsteps.mixed || agents[i].planner == FF_PLANNER_FOOTSTEPS;
+    def.max_obstacles = (uint32_t)scene->obstacles.count;
+    def.max_walls += FF_SCENE_OBSTACLE_WALLS * def.max_obstacles;
     def.body_scale = scene->navigation.body_scale;
     def.mcn = scene->navigation.mcn;
     def.baseline = scene->navigation.baseline;
@@ -32,13 +40,22 @@ ff_status ff_scene_populate(const ff_scene *scene, ff_crowd *crowd, ff_error *er
         def.radius = agents[i].radius;
         def.navigation = agents[i].navigation;
         def.synthesis = agents[i].synthesis;
+        def.planner = agents[i].planner;
         def.machine = agents[i].machine;
         ff_status status = ff_crowd_add_agent(crowd, &def, &agent, error);
+        if (status == FF_OK && agents[i].waypoint_count > 0)
+            status =
+                ff_crowd_set_waypoints(crowd, agent, agents[i].waypoints, agents[i].waypoint_count, error);
         if (status != FF_OK) return status;
     }
     const ff_scene_wall *walls = ff_scene_walls(scene);
     for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i) {
         ff_status status = ff_crowd_add_wall(crowd, walls[i].p, walls[i].q, error);
+        if (status != FF_OK) return status;
+    }
+    const ff_obstacle_def *obstacles = scene->obstacles.data;
+    for (size_t i = 0; i < scene->obstacles.count; ++i) {
+        ff_status status = ff_crowd_add_obstacle(crowd, &obstacles[i], NULL, error);
         if (status != FF_OK) return status;
     }
     return FF_OK;

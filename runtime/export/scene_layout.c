@@ -193,6 +193,14 @@ ff_status ff_scene_create(const ff_scene_def *def, ff_scene *out, ff_error *erro
     ff_status status = FF_OK;
     for (size_t i = 0; i < def->walls.count && status == FF_OK; ++i)
         status = add_wall(out, walls[i].p, walls[i].q, error);
+    const ff_obstacle_def *obstacles = def->obstacles.data;
+    for (size_t i = 0; i < def->obstacles.count && status == FF_OK; ++i) {
+        ff_obstacle_def *copy = ff_array_grow(&out->obstacles, 1, sizeof *copy);
+        if (copy)
+            *copy = obstacles[i];
+        else
+            status = ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %zu obstacles", def->obstacles.count);
+    }
     if (status == FF_OK) status = ff_scene_behaviour_copy(&def->behaviour, &out->behaviour, error);
     if (status == FF_OK) status = place[def->kind](def, out, error);
     if (status == FF_OK) status = ff_scene_place_people(def, out, error);
@@ -205,6 +213,7 @@ void ff_scene_free(ff_scene *scene)
 {
     ff_array_free(&scene->agents);
     ff_array_free(&scene->walls);
+    ff_array_free(&scene->obstacles);
     ff_scene_behaviour_free(&scene->behaviour);
     memset(scene, 0, sizeof *scene);
 }
