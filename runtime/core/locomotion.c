@@ -5,6 +5,7 @@
 
 #define TURN_SLOW (135.0 * FF_DEG) /* rad/s, up to SLOW; people would have to hop to turn faster */
 #define TURN_QUICK (90.0 * FF_DEG) /* from QUICK on */
+#define TURN_ASIDE 0.7             /* of that is lost to the widest side steps: legs would cross */
 #define SLOW 0.6                   /* m/s */
 #define QUICK 0.9
 #define HEIGHT_PHASES 16
@@ -33,6 +34,7 @@ static ff_rates clamp_model(const ff_clip_model *model, ff_rates target)
     ff_rates out = {target.forward / far, target.left / far, target.turn};
     double speed = sqrt(out.forward * out.forward + out.left * out.left);
     double most = ff_lerp(TURN_SLOW, TURN_QUICK, ff_smooth((speed - SLOW) / (QUICK - SLOW)));
+    most *= 1.0 - TURN_ASIDE * fabs(out.left) / FF_MODEL_SIDEWAYS;
     out.turn = ff_clamp(out.turn, -most, most);
     return out;
 }
