@@ -157,6 +157,7 @@ uint64_t ff_sections_place(ff_pack_section *table, uint32_t count)
 void ff_sections_seal(void *data, uint64_t size, const ff_section_format *format, uint32_t count)
 {
     ff_pack_header header = {format->magic, format->version, count, size, 0};
+    memcpy(data, &header, sizeof header);
     header.checksum = XXH64((unsigned char *)data + sizeof header, size - sizeof header, 0);
     memcpy(data, &header, sizeof header);
 }

@@ -13,7 +13,8 @@ static bool is_sane(const ff_scene *scene)
         double sum = agent->position.a + agent->position.b + agent->goal.a + agent->goal.b + agent->heading;
         if (!isfinite(sum) || !(agent->radius > 0.0) || !(agent->preferred_speed > 0.0)) return false;
     }
-    return scene->most > 0 && scene->most_numbers >= ff_scene_agent_count(scene) && scene->seconds > 0.0 && scene->step > 0.0;
+    return scene->most > 0 && scene->most_numbers >= ff_scene_agent_count(scene) && scene->seconds > 0.0 &&
+           scene->step > 0.0;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
