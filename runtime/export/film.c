@@ -48,6 +48,15 @@ static uint32_t last_crowded_pose(const ff_recording *recording)
     return 0;
 }
 
+/* The first pose with anybody in the scene. */
+static uint32_t first_peopled_pose(const ff_recording *recording)
+{
+    for (uint32_t pose = 0; pose < recording->pose_count; ++pose)
+        for (uint32_t i = 0; i < recording->agent_count; ++i)
+            if (ff_recording_track(recording, pose * recording->pose_stride, i)->present) return pose;
+    return 0;
+}
+
 static ff_status draw_crowd(const film *f, ff_error *error)
 {
     static const double moments[4] = {0.07, 0.30, 0.55, 1.0};
@@ -60,9 +69,10 @@ static ff_status draw_crowd(const film *f, ff_error *error)
     ff_raster raster = {0};
     ff_status status = ff_stage_create(f->figure, COARSE, &stage, error);
     if (status == FF_OK) status = ff_raster_create(width, height, &raster, error);
-    uint32_t last = last_crowded_pose(f->recording);
+    uint32_t first = first_peopled_pose(f->recording), last = last_crowded_pose(f->recording);
+    if (last < first) last = first;
     for (int k = 0; k < 4 && status == FF_OK; ++k) {
-        uint32_t pose = (uint32_t)(moments[k] * last + 0.5);
+        uint32_t pose = first + (uint32_t)(moments[k] * (last - first) + 0.5);
         int x = MARGIN + (k % columns) * (panel_width + PANEL_GAP);
         int y = HEAD + (k / columns) * (panel_height + PANEL_GAP);
         char text[32];

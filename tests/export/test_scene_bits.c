@@ -133,7 +133,7 @@ static void every_scene_gives_the_same_bits_on_any_threads_and_saved_on_the_way(
         ++scenes;
     }
     closedir(folder);
-    assert_true(scenes >= 6);
+    assert_true(scenes >= 8);
 }
 
 int main(void)

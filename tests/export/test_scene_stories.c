@@ -176,11 +176,69 @@ static void the_trade_show_keeps_to_its_capacities_and_times_and_loses_nobody(vo
     end(&s);
 }
 
+static void shoppers_look_and_browse_for_their_times_inside_the_shops_and_before_them(void **state)
+{
+    (void)state;
+    story s;
+    begin(&s, "runtime/scenes/mall.json");
+    const uint32_t window = state_named(&s, "Window"), browse = state_named(&s, "Browse");
+    static uint32_t last[NUMBERS];
+    static double since[NUMBERS];
+    for (int i = 0; i < NUMBERS; ++i)
+        last[i] = FF_NONE;
+    uint32_t looked = 0, browsed = 0;
+    while (s.time < s.scene.seconds) {
+        step(&s);
+        assert_int_equal(s.count, 15);
+        for (uint32_t i = 0; i < s.count; ++i) {
+            ff_agent_behaviour b = behaviour_of(&s, i);
+            ff_agent_state a = state_of(&s, i);
+            assert_true(fabs(a.position.b) < 6.0 && fabs(a.position.a) < 18.5); /* within the walls */
+            if (b.state == browse) assert_true(fabs(a.position.b) > 1.5);
+            if (b.state == window) assert_true(fabs(a.position.b) < 1.5);
+            if (b.state == last[a.number]) continue;
+            double spent = s.time - since[a.number];
+            if (last[a.number] == window) assert_true(spent > 2.96 && spent < 8.04);
+            if (last[a.number] == browse) assert_true(spent > 3.96 && spent < 8.04);
+            looked += last[a.number] == window;
+            browsed += last[a.number] == browse;
+            last[a.number] = b.state;
+            since[a.number] = s.time;
+        }
+    }
+    assert_true(looked >= 15 && browsed >= 10);
+    end(&s);
+}
+
+static void everyone_gets_through_the_course_past_all_its_goals_in_order(void **state)
+{
+    (void)state;
+    story s;
+    begin(&s, "runtime/scenes/course.json");
+    static uint32_t passed[NUMBERS];
+    memset(passed, 0, sizeof passed);
+    while (s.time < s.scene.seconds && ff_crowd_count(s.crowd).left < 5) {
+        step(&s);
+        for (uint32_t i = 0; i < s.count; ++i) {
+            ff_agent_behaviour b = behaviour_of(&s, i);
+            uint32_t n = state_of(&s, i).number;
+            assert_true(b.goal == passed[n] || b.goal == passed[n] + 1);
+            passed[n] = b.goal;
+        }
+    }
+    assert_int_equal(ff_crowd_count(s.crowd).left, 5);
+    for (int n = 0; n < 5; ++n)
+        assert_int_equal(passed[n], 9); /* nine ways, then the end */
+    end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_crossing_is_clear_when_the_light_says_stop_and_people_set_out_on_walk_only),
         cmocka_unit_test(the_trade_show_keeps_to_its_capacities_and_times_and_loses_nobody),
+        cmocka_unit_test(shoppers_look_and_browse_for_their_times_inside_the_shops_and_before_them),
+        cmocka_unit_test(everyone_gets_through_the_course_past_all_its_goals_in_order),
     };
     return cmocka_run_group_tests(tests, open_pack, close_pack);
 }
