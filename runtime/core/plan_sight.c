@@ -32,7 +32,8 @@ static void see_tracks(ff_sight *s, const ff_plan_world *world, const ff_plan_op
     uint32_t most = options->view_count < FF_SIGHT_MAX ? options->view_count : FF_SIGHT_MAX;
     double end =
         options->time_horizon > 0.0 ? (options->time_horizon + STOPPED) / FF_TRACK_STEP : FF_TRACK_KNOTS_MAX;
-    for (uint32_t i = 0; i < world->track_count && most > 0; ++i) {
+    if (most == 0) return;
+    for (uint32_t i = 0; i < world->track_count; ++i) {
         const ff_track *track = world->tracks[i];
         int64_t shift = track->first - s->first_knot;
         ff_vec2 at = ff_sub2(track->origin, s->origin);

@@ -184,7 +184,7 @@ static void plans_in_force_never_meet(void **state)
             continue;
         }
         ++made;
-        assert_true(plan.steps[plan.count - 1].hold == 1 && plan.count <= FF_PLAN_STEPS_MAX);
+        assert_true(plan.count <= FF_PLAN_STEPS_MAX && plan.steps[plan.count - 1].hold == 1);
         m->plan = plan;
         ff_plan_track(w->set, &plan, time, &m->track);
         for (uint32_t k = 0; k < world.track_count; ++k)
