@@ -19,14 +19,10 @@ static void matrices_of(const ff_crowd *crowd, uint32_t slot, ff_vec2 origin, ff
     ff_quat rotations[FF_JOINT_COUNT];
     float lanes[4 * FF_POSE_LANES];
     pose_of(crowd, slot, &hips, rotations);
-    double size = crowd->gaits[slot].style.scale;
-    const float place[3] = {(float)((hips.x - origin.b) / size), (float)(hips.y / size),
-                            (float)((hips.z - origin.a) / size)};
+    const ff_pose_root root = {{(float)(hips.x - origin.b), (float)hips.y, (float)(hips.z - origin.a)},
+                               (float)crowd->gaits[slot].style.scale};
     ff_pose_lanes(rotations, FF_JOINT_COUNT, FF_POSE_LANES, lanes);
-    ff_pose_matrices(&crowd->space->tree, lanes, place, out);
-    for (int j = 0; j < FF_JOINT_COUNT && size != 1.0; ++j)
-        for (int k = 0; k < 12; ++k)
-            out[j].row[k / 4][k % 4] *= (float)size;
+    ff_pose_matrices(&crowd->space->tree, lanes, &root, out);
 }
 
 ff_status ff_crowd_agent_pose(const ff_crowd *crowd, ff_agent agent, ff_vec3 *hips, ff_quat *rotations,

@@ -14,6 +14,16 @@ void ff_pose_lanes(const ff_quat *rotations, uint32_t joint_count, uint32_t lane
         x[j] = y[j] = z[j] = 0.0f, w[j] = 1.0f;
 }
 
+/* Joint 0's rotation becomes its matrix: all others follow it, in place and in size. */
+static void put_root(const ff_pose_root *root, ff_matrix *out)
+{
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k)
+            out->row[i][k] *= root->scale;
+        out->row[i][3] = root->place[i];
+    }
+}
+
 /* -------------------------------------------------------------------------------------------------- in plain C */
 
 static void local_plain(const ff_pose_tree *tree, const float *rotations, uint32_t j, ff_matrix *out)
@@ -42,15 +52,14 @@ static void multiply_plain(const ff_matrix *restrict parent, const ff_matrix *re
 }
 
 /* All local matrices first: read back as whole rows at once, they would stall on the parts just written. */
-void ff_pose_matrices_plain(const ff_pose_tree *tree, const float *rotations, const float hips[3],
+void ff_pose_matrices_plain(const ff_pose_tree *tree, const float *rotations, const ff_pose_root *root,
                             ff_matrix *out)
 {
     ff_matrix local[FF_POSE_LANES_MAX];
     local_plain(tree, rotations, 0, &out[0]);
     for (uint32_t j = 1; j < tree->joint_count; ++j)
         local_plain(tree, rotations, j, &local[j]);
-    for (int i = 0; i < 3; ++i)
-        out[0].row[i][3] = hips[i];
+    put_root(root, &out[0]);
     for (uint32_t j = 1; j < tree->joint_count; ++j)
         multiply_plain(&out[tree->parents[j]], &local[j], &out[j]);
 }
@@ -60,13 +69,15 @@ void ff_pose_matrices_plain(const ff_pose_tree *tree, const float *rotations, co
 #if defined(__SSE2__)
 #include "runtime/core/pose_matrices_sse2.h"
 
-void ff_pose_matrices(const ff_pose_tree *tree, const float *rotations, const float hips[3], ff_matrix *out)
+void ff_pose_matrices(const ff_pose_tree *tree, const float *rotations, const ff_pose_root *root,
+                      ff_matrix *out)
 {
-    matrices_sse2(tree, rotations, hips, out);
+    matrices_sse2(tree, rotations, root, out);
 }
 #else
-void ff_pose_matrices(const ff_pose_tree *tree, const float *rotations, const float hips[3], ff_matrix *out)
+void ff_pose_matrices(const ff_pose_tree *tree, const float *rotations, const ff_pose_root *root,
+                      ff_matrix *out)
 {
-    ff_pose_matrices_plain(tree, rotations, hips, out);
+    ff_pose_matrices_plain(tree, rotations, root, out);
 }
 #endif

@@ -11,11 +11,17 @@ typedef struct ff_pose_tree {
     uint32_t joint_count, lanes; /* lanes: as in ff_pose_store */
 } ff_pose_tree;
 
-/* rotations: unit quaternions x[lanes], y, z, w, local to the parent; of joint 0 in the world, like its place hips.
- * out[joint_count]. The same bits with SIMD instructions and without. */
-void ff_pose_matrices(const ff_pose_tree *tree, const float *rotations, const float hips[3], ff_matrix *out);
+/* Where joint 0 is in the world, and how large a body is beside the tree. */
+typedef struct ff_pose_root {
+    float place[3], scale;
+} ff_pose_root;
+
+/* rotations: unit quaternions x[lanes], y, z, w, local to the parent; of joint 0 in the world. out[joint_count]. The same
+ * bits with SIMD instructions and without. */
+void ff_pose_matrices(const ff_pose_tree *tree, const float *rotations, const ff_pose_root *root,
+                      ff_matrix *out);
 /* The same in plain C: what ff_pose_matrices is where there is no SSE2, and what it is tested against. */
-void ff_pose_matrices_plain(const ff_pose_tree *tree, const float *rotations, const float hips[3],
+void ff_pose_matrices_plain(const ff_pose_tree *tree, const float *rotations, const ff_pose_root *root,
                             ff_matrix *out);
 
 /* From quaternions to lanes (those without a joint become the identity). */

@@ -57,7 +57,7 @@ static inline void multiply(const ff_matrix *parent, const ff_matrix *local, ff_
     _mm_storeu_ps(out->row[2], row_times(p2, l0, l1, l2));
 }
 
-static inline void matrices_sse2(const ff_pose_tree *tree, const float *rotations, const float hips[3],
+static inline void matrices_sse2(const ff_pose_tree *tree, const float *rotations, const ff_pose_root *root,
                                  ff_matrix *out)
 {
     _Alignas(16) ff_matrix local[FF_POSE_LANES_MAX];
@@ -65,8 +65,7 @@ static inline void matrices_sse2(const ff_pose_tree *tree, const float *rotation
     for (uint32_t j = 4; j < tree->joint_count; j += 4)
         four_locals(tree, rotations, j, local + j);
     out[0] = local[0];
-    for (int i = 0; i < 3; ++i)
-        out[0].row[i][3] = hips[i];
+    put_root(root, &out[0]);
     for (uint32_t j = 1; j < tree->joint_count; ++j)
         multiply(&out[tree->parents[j]], &local[j], &out[j]);
 }

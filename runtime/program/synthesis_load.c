@@ -187,7 +187,7 @@ void ff_synthesis_load_run(ff_synthesis_load *load, bool simd, bool legs)
     for (uint32_t i = 0; i < load->count; ++i) {
         character *c = &load->characters[i];
         ff_matrix *out = load->out + (size_t)i * load->tree.joint_count;
-        const float hips[3] = {(float)c->hips.x, (float)c->hips.y, (float)c->hips.z};
+        const ff_pose_root root = {{(float)c->hips.x, (float)c->hips.y, (float)c->hips.z}, 1.0f};
         sample_motions(c, &mix);
         if (simd)
             ff_pose_blend(&load->store, &mix, lanes);
@@ -195,9 +195,9 @@ void ff_synthesis_load_run(ff_synthesis_load *load, bool simd, bool legs)
             ff_pose_blend_plain(&load->store, &mix, lanes);
         if (legs) bring_legs(load->space, c->hips, load->store.lanes, lanes);
         if (simd)
-            ff_pose_matrices(&load->tree, lanes, hips, out);
+            ff_pose_matrices(&load->tree, lanes, &root, out);
         else
-            ff_pose_matrices_plain(&load->tree, lanes, hips, out);
+            ff_pose_matrices_plain(&load->tree, lanes, &root, out);
     }
 }
 

@@ -7,21 +7,21 @@
 #define AGENTS 40
 #define LANES 24
 
-/* Every joint's frame must take three points to where doubles take them. */
-static void check_matrices(const ff_matrix *got, ff_vec3 hips, const ff_quat *rotations, double tolerance)
+/* Every joint's frame must take three points to where doubles take them, on a body of that size. */
+static void check_matrices(const ff_matrix *got, ff_vec3 hips, double size, const ff_quat *rotations,
+                           double tolerance)
 {
     ff_vec3 place[FF_JOINT_COUNT];
     ff_quat turn[FF_JOINT_COUNT];
     for (int j = 0; j < FF_JOINT_COUNT; ++j) {
         int parent = ff_joint_parents[j];
-        const double *offset = ff_walker_offsets[j];
+        const double *rest = ff_walker_offsets[j];
+        ff_vec3 offset = ff_scale3(ff_v3(rest[0], rest[1], rest[2]), size);
         turn[j] = parent < 0 ? rotations[j] : ff_quat_mul(turn[parent], rotations[j]);
-        place[j] = parent < 0 ? hips
-                              : ff_add3(place[parent],
-                                        ff_quat_rotate(turn[parent], ff_v3(offset[0], offset[1], offset[2])));
+        place[j] = parent < 0 ? hips : ff_add3(place[parent], ff_quat_rotate(turn[parent], offset));
         for (int axis = 0; axis < 4; ++axis) {
             ff_vec3 point = ff_v3(axis == 1, axis == 2, axis == 3);
-            ff_vec3 want = ff_add3(place[j], ff_quat_rotate(turn[j], point));
+            ff_vec3 want = ff_add3(place[j], ff_quat_rotate(turn[j], ff_scale3(point, size)));
             const double v[3] = {point.x, point.y, point.z}, to[3] = {want.x, want.y, want.z};
             for (int i = 0; i < 3; ++i) {
                 const float *row = got[j].row[i];
@@ -45,17 +45,19 @@ static void any_pose_comes_within_a_hundredth_of_a_millimetre_and_to_the_same_bi
     for (int run = 0; run < 500; ++run) {
         ff_quat rotations[FF_JOINT_COUNT];
         ff_matrix fast[FF_JOINT_COUNT], plain[FF_JOINT_COUNT];
-        float lanes[4 * LANES], hips[3];
+        float lanes[4 * LANES];
+        ff_pose_root root = {.scale = run % 5 == 0 ? 1.0f : (float)ff_random_range(&random, 0.7, 1.2)};
         for (int j = 0; j < FF_JOINT_COUNT; ++j)
             rotations[j] = ff_quat_unit((ff_quat){ff_random_normal(&random), ff_random_normal(&random),
                                                   ff_random_normal(&random), ff_random_normal(&random)});
         for (int i = 0; i < 3; ++i)
-            hips[i] = (float)ff_random_range(&random, -20.0, 20.0);
+            root.place[i] = (float)ff_random_range(&random, -20.0, 20.0);
         ff_pose_lanes(rotations, FF_JOINT_COUNT, LANES, lanes);
-        ff_pose_matrices(&tree, lanes, hips, fast);
-        ff_pose_matrices_plain(&tree, lanes, hips, plain);
+        ff_pose_matrices(&tree, lanes, &root, fast);
+        ff_pose_matrices_plain(&tree, lanes, &root, plain);
         assert_memory_equal(fast, plain, sizeof fast);
-        check_matrices(fast, ff_v3((double)hips[0], (double)hips[1], (double)hips[2]), rotations, 1e-5);
+        ff_vec3 hips = ff_v3((double)root.place[0], (double)root.place[1], (double)root.place[2]);
+        check_matrices(fast, hips, (double)root.scale, rotations, 1e-5);
     }
 }
 
@@ -102,7 +104,7 @@ static void a_crowds_matrices_are_those_of_its_poses(void **state)
             FF_ASSERT_OK(ff_crowd_agent_matrices(crowd, agents[k], centre, one, &error), error);
             assert_memory_equal(one, all[k], sizeof one);
             FF_ASSERT_OK(ff_crowd_agent_pose(crowd, agents[k], &hips, rotations, &error), error);
-            check_matrices(one, ff_sub3(hips, ff_ground(centre, 0.0)), rotations, 1e-5);
+            check_matrices(one, ff_sub3(hips, ff_ground(centre, 0.0)), 1.0, rotations, 1e-5);
         }
     }
     ff_crowd_destroy(crowd);
