@@ -44,7 +44,7 @@ ff_crowd_def ff_crowd_def_default(void)
                                   .padding = 0.02,
                                   .prediction = 0.3},
                           .planner = FF_PLANNER_VELOCITY,
-                          .footsteps = {.nodes = 200, .expiry = 2.0, .expiry_actions = 3, .margin = 0.1},
+                          .footsteps = {.nodes = 300, .expiry = 2.0, .expiry_actions = 3, .margin = 0.08},
                           .max_obstacles = 64,
                           .cookie = CROWD_COOKIE};
 }

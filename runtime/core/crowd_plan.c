@@ -6,7 +6,7 @@
 
 #define RETRY 0.15         /* s, after which is tried again what was in vain (footstep study, section 4.3) */
 #define CLOSE_TO_STOP 0.5  /* s: who is so near to the stop at the end of its plan plans first */
-#define VIEW 9.0           /* m, footstep study, section 4.6 */
+#define VIEW 11.0          /* m: so far one walks before a stop at the end of a plan */
 #define SURPRISE_VIEW 6.0  /* m, within which obstacles that the caller moves are seen */
 #define LEAD 0.5           /* s: and where they will be by then, too */
 #define GOAL_REACH 0.7     /* of the goal's tolerance, that a plan reaches into it */

@@ -87,7 +87,7 @@ void ff_plan_colliders(const ff_action_set *set, const ff_plan *plan, double tim
                        ff_vec3 out[FF_COLLIDER_COUNT]);
 
 /* How long, from its start, an action is still drawn towards the pose that it follows: 1 - ff_smooth(t / this) of the
- * difference is left. At most 0.2 s. */
+ * difference is left. At most 0.3 s. */
 double ff_action_blend(const ff_action_set *set, uint32_t action);
 
 /* --------------------------------------------------------------------------------------------------- tracks */

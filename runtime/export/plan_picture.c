@@ -109,6 +109,16 @@ static void include_prints(map *m, const ff_array *array)
     }
 }
 
+static void include_shapes(map *m, const ff_array *array)
+{
+    const ff_drawn_shape *all = array->data;
+    for (size_t i = 0; i < array->count; ++i) {
+        double r = all[i].half_length + all[i].half_width + all[i].radius;
+        m->low = ff_v2(ff_min(m->low.a, all[i].centre.a - r), ff_min(m->low.b, all[i].centre.b - r));
+        m->high = ff_v2(ff_max(m->high.a, all[i].centre.a + r), ff_max(m->high.b, all[i].centre.b + r));
+    }
+}
+
 static map fit(const ff_plan_scene *scenes, uint32_t count)
 {
     map m = {{1e9, 1e9}, {-1e9, -1e9}, 1.0, MARGIN};
@@ -116,9 +126,14 @@ static map fit(const ff_plan_scene *scenes, uint32_t count)
         include_prints(&m, &scenes[i].stood);
         include_prints(&m, &scenes[i].planned);
         include_prints(&m, &scenes[i].goals);
+        include_shapes(&m, &scenes[i].shapes);
     }
     m.low = ff_sub2(m.low, ff_v2(0.7, 0.7));
     m.high = ff_add2(m.high, ff_v2(0.7, 0.7));
+    /* Room for the title. */
+    double lack = ff_max(0.6 * (m.high.a - m.low.a) - (m.high.b - m.low.b), 0.0);
+    m.low.b -= 0.5 * lack;
+    m.high.b += 0.5 * lack;
     m.scale = PANEL / ff_max(m.high.a - m.low.a, m.high.b - m.low.b);
     return m;
 }

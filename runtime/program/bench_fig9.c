@@ -19,7 +19,7 @@
 typedef struct frame_row {
     const char *method; /* "ours" or "paper" */
     uint32_t agents;
-    double density, budget_ms; /* budget 0: 200 nodes per plan */
+    double density, budget_ms; /* budget 0: 300 nodes per plan */
     uint32_t actions;          /* 0: all there are */
     const char *published;     /* frames per second in the paper */
     ff_walk_measures measures;
@@ -143,7 +143,7 @@ static void print_rows(const frames *all)
         const frame_row *row = &all->row[i];
         const ff_walk_measures *m = &row->measures;
         char budget[24];
-        snprintf(budget, sizeof budget, row->budget_ms > 0.0 ? "%.0f" : "200 nodes", row->budget_ms);
+        snprintf(budget, sizeof budget, row->budget_ms > 0.0 ? "%.0f" : "300 nodes", row->budget_ms);
         printf("%-6s %6u %8.2f %9s | %8.0f %9.2f %6s | %8.1f %9.3f %8.1f | %7.2f %9.0f\n", row->method,
                row->agents, row->density, budget, m->fps_mean, m->frame_ms_p99,
                row->published ? row->published : "", m->no_plan, m->overlap, 100.0 * m->deepest,
