@@ -23,6 +23,7 @@
 /* Study, section 7: a strafe without them is an A-frame with a still trunk. */
 #define SHIFT 0.4      /* of the way from the middle to the standing foot, in a side step */
 #define SHIFT_FULL 0.3 /* m/s, from where on it is all of that */
+#define RISE 0.018     /* m, either way, at LEAN_FULL: else knees stay bent for the widest moment */
 #define LEAN 0.05      /* rad, at LEAN_FULL */
 #define LEAN_FULL 0.6  /* m/s */
 #define LEAN_SWAY 0.03 /* rad, over the standing foot, together with the shift */
@@ -221,4 +222,12 @@ double ff_gait_model_lean(const ff_gait_model *model, ff_rates rates, double pha
     if (!(share > 0.0)) return 0.0;
     return LEAN * ff_clamp(rates.left / LEAN_FULL, -1.0, 1.0) +
            LEAN_SWAY * share * over_foot(model, rates, phase);
+}
+
+double ff_gait_model_rise(const ff_gait_model *model, ff_rates rates, double phase)
+{
+    double share = sidewards(rates);
+    if (!(share > 0.0)) return 0.0;
+    double together = (rates.left > 0.0 ? 0.5 : 0.0) + 0.5 * (ff_gait_model_stance(model, rates) - 0.5);
+    return share * RISE * ff_min(fabs(rates.left) / LEAN_FULL, 1.0) * ff_cos(FF_TAU * (phase - together));
 }

@@ -47,6 +47,10 @@ ff_vec3 ff_gait_model_hips(const ff_gait_model *model, ff_rates rates, double ph
 /* How far the body leans to the left (rad, at the hips): to where one side-steps, and a little over the standing foot. */
 double ff_gait_model_lean(const ff_gait_model *model, ff_rates rates, double phase);
 
+/* How far a side step lifts the hips (m): up while the feet are together, which is when the following foot lands, down while
+ * they are apart. Not in ff_gait_model_hips, which examples are derived with as well: their knees would pop for it. */
+double ff_gait_model_rise(const ff_gait_model *model, ff_rates rates, double phase);
+
 /* Share of the cycle that is read backwards, 0 to 1: all of it by who goes backwards, both readings about equally by who does
  * neither, so that nothing jumps in between. */
 double ff_gait_model_backward(ff_rates rates);

@@ -154,6 +154,7 @@ ff_vec3 ff_sample_hips(const ff_blend_space *space, const ff_cursor *cursor)
 {
     if (cursor->clip) {
         ff_vec3 at = ff_gait_model_hips(&space->model.clip, cursor->clip->rates, cursor->fraction);
+        at.z += ff_gait_model_rise(&space->model.clip, cursor->clip->rates, cursor->fraction);
         return ff_v3(at.x, at.y, at.z + cursor->clip->hips);
     }
     ff_vec3 hips = ff_v3(0.0, 0.0, 0.0);

@@ -241,6 +241,24 @@ static void nobody_crouches_who_goes_slowly_or_turns_on_the_spot(void **state)
     FF_ASSERT_BELOW(mean_height(3 * HZ, count), standing - 0.01);
 }
 
+static void side_steps_are_lowest_while_the_feet_are_apart(void **state)
+{
+    (void)state;
+    for (int side = -1; side <= 1; side += 2) {
+        int count = record(FF_SEMI_PROCEDURAL, (ff_rates){0.0, 0.6 * side, 0.0}, 8.0, 2), seen[2] = {0, 0};
+        double height[2] = {0.0, 0.0};
+        for (int i = 3 * HZ; i < count; ++i) {
+            ff_vec3 l = steps[i].at[FF_JOINT_ANKLE_L], r = steps[i].at[FF_JOINT_ANKLE_R];
+            double apart = ff_length2(ff_plane(ff_sub3(l, r)));
+            if (apart > 0.16 && apart < 0.3) continue;
+            height[apart >= 0.3] += steps[i].at[FF_JOINT_HIPS].y;
+            ++seen[apart >= 0.3];
+        }
+        assert_true(seen[0] > 20 && seen[1] > 20);
+        FF_ASSERT_BELOW(height[1] / seen[1] + 0.015, height[0] / seen[0]);
+    }
+}
+
 static void side_steps_put_the_pelvis_over_the_standing_foot(void **state)
 {
     (void)state;
@@ -471,6 +489,7 @@ int main(void)
         cmocka_unit_test(footprints_of_the_clip_follow_the_rates_exactly),
         cmocka_unit_test(feet_on_the_clip_stand_still_and_knees_do_not_pop),
         cmocka_unit_test(nobody_crouches_who_goes_slowly_or_turns_on_the_spot),
+        cmocka_unit_test(side_steps_are_lowest_while_the_feet_are_apart),
         cmocka_unit_test(side_steps_put_the_pelvis_over_the_standing_foot),
         cmocka_unit_test(a_change_at_any_moment_shows_neither_in_feet_nor_knees_nor_trunk),
         cmocka_unit_test(straight_on_one_changes_within_a_few_steps_of_the_clock_and_only_once),
