@@ -91,6 +91,10 @@ uint32_t ff_search_add(ff_search *s, const ff_search_node *n)
 bool ff_search_is_free(ff_search *s, ff_search_node *n)
 {
     if (n->flags & FF_NODE_TESTED) return true;
+    if (ff_sight_is_empty(&s->memory->sight)) {
+        n->flags |= FF_NODE_TESTED;
+        return true;
+    }
     ff_stance *stance = stance_of(s, n->parent);
     ++s->result.tested;
     bool free_way;

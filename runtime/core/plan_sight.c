@@ -50,6 +50,7 @@ static void see_tracks(ff_sight *s, const ff_plan_world *world, const ff_plan_op
 /* The boxes of chunk after chunk; spare lanes are nowhere. */
 static void find_rooms(ff_sight *s)
 {
+    if (s->count == 0) return;
     for (uint32_t c = 0; c < FF_SIGHT_CHUNKS; ++c) {
         ff_sight_rooms *r = &s->rooms[c];
         for (uint32_t i = 0; i < s->count; ++i) {

@@ -53,6 +53,13 @@ typedef struct ff_sight {
 void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const ff_plan_options *options,
                    ff_vec2 origin, double time, ff_sight *out);
 
+/* Nothing can be met anywhere. */
+static inline bool ff_sight_is_empty(const ff_sight *sight)
+{
+    return sight->count == 0 && sight->mover_count == 0 && sight->shape_count == 0 &&
+           (!sight->solids || sight->solids->count == 0);
+}
+
 /* Where an agent is at the joint between two actions: everything its next steps have in common. */
 typedef struct ff_stance {
     float at[2], other[2]; /* m: ball of the foot that has landed, anchor of the action that is over */

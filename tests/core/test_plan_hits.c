@@ -24,7 +24,7 @@ static ff_knot random_knot(ff_random *random, double at, double spread)
     return knot;
 }
 
-/* Smallest gap (m, radii taken off) of any two colliders that share a height, looked for at a thousand moments. */
+/* Smallest gap (m, radii taken off) of any two colliders that share a height, looked for at two hundred moments. */
 static double smallest_gap(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
                            ff_vec2 apart)
 {
@@ -39,8 +39,8 @@ static double smallest_gap(const ff_knot *x0, const ff_knot *x1, const ff_knot *
             if (fminf(low[0][0], low[0][1]) > fmaxf(high[1][0], high[1][1]) ||
                 fminf(low[1][0], low[1][1]) > fmaxf(high[0][0], high[0][1]))
                 continue;
-            for (int t = 0; t <= 1000; ++t) {
-                double s = t / 1000.0;
+            for (int t = 0; t <= 200; ++t) {
+                double s = t / 200.0;
                 double a =
                     ff_lerp((double)y0->a[k] - (double)x0->a[i], (double)y1->a[k] - (double)x1->a[i], s) +
                     apart.a;
