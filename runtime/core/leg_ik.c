@@ -46,9 +46,12 @@ void ff_legs_solve(ff_legs *legs, ff_pair3 hip, ff_pair3 ankle)
     ff_pair distance = ff_pair3_length(wanted);
     ff_pair3 line = ff_pair3_scale(wanted, ff_pair_inverse(distance));
 
-    /* A nearly straight knee has no side of its own: the front of the thigh helps it out. */
-    ff_pair3 front = ff_pairq_rotate(legs->thigh, forward);
-    ff_pair3 side = ff_pair3_unit(across(ff_pair3_madd(thigh, front, 0.05 * thigh_length), old_line));
+    /* A nearly straight knee has no side of its own: the front of the thigh helps it out. And one bent backward, as what is left
+     * of a switch may have it for a moment, is not believed. */
+    ff_pair3 front = across(ff_pairq_rotate(legs->thigh, forward), old_line), bent = across(thigh, old_line);
+    ff_pair backward = ff_pair_max(-ff_pair3_dot(bent, front), ff_pair_of(0.0, 0.0));
+    ff_pair square_front = ff_pair_max(ff_pair3_dot(front, front), ff_pair_of(1e-6, 1e-6));
+    ff_pair3 side = ff_pair3_unit(ff_pair3_madd(bent, front, 0.05 * thigh_length + backward / square_front));
 
     ff_pair apart = thigh_length - shank_length, closest = ff_pair_max(apart, -apart) + 0.05 * both;
     distance = ff_pair_of(ff_leg_soft_reach(distance[0], both[0]), ff_leg_soft_reach(distance[1], both[1]));

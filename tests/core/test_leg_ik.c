@@ -88,6 +88,18 @@ static void a_straight_leg_bends_at_the_front_of_the_thigh(void **state)
     FF_ASSERT_NEAR(leg.knee.x, 0.1, 1e-9);
 }
 
+static void a_knee_bent_backward_comes_out_bent_forward(void **state)
+{
+    (void)state;
+    for (int i = -40; i <= 40; ++i) {
+        ff_leg leg = leg_bent(0.3, 0.01 * i);
+        ff_vec3 ankle = ff_v3(0.1, 0.2, 0.1);
+        ff_leg_solve(&leg, leg.hip, ankle);
+        check_bones(&leg);
+        assert_true(leg.knee.z > 0.5 * (leg.hip.z + ankle.z) + 0.1);
+    }
+}
+
 static void assert_same_leg(const ff_legs *legs, int half, const ff_leg *alone)
 {
     const ff_vec3 got[3] = {ff_pair3_half(legs->hip, half), ff_pair3_half(legs->knee, half),
@@ -134,6 +146,7 @@ int main(void)
         cmocka_unit_test(the_knee_bends_forward_and_moves_without_jumps),
         cmocka_unit_test(reach_eases_from_0_990_to_0_998_and_never_locks),
         cmocka_unit_test(a_straight_leg_bends_at_the_front_of_the_thigh),
+        cmocka_unit_test(a_knee_bent_backward_comes_out_bent_forward),
         cmocka_unit_test(two_legs_at_once_are_each_as_alone_to_the_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
