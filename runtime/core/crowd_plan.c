@@ -8,6 +8,7 @@
 #define CLOSE_TO_STOP 0.5  /* s: who is so near to the stop at the end of its plan plans first */
 #define VIEW 11.0          /* m: so far one walks before a stop at the end of a plan */
 #define SURPRISE_VIEW 6.0  /* m, within which obstacles that the caller moves are seen */
+#define WALKER_REACH 0.15  /* m, by which hands and feet of who goes by velocity leave the disc */
 #define LEAD 0.5           /* s: and where they will be by then, too */
 #define GOAL_REACH 0.7     /* of the goal's tolerance, that a plan reaches into it */
 #define WAYPOINT_REACH 0.6 /* m */
@@ -99,7 +100,8 @@ static void see_walkers(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane
         if (other->slot == slot || ff_is_stepper(crowd, other->slot) ||
             ff_length2(ff_sub2(other->position, here)) > VIEW)
             continue;
-        lane->walkers[world->walker_count++] = (ff_walker){other->position, other->velocity, other->radius};
+        lane->walkers[world->walker_count++] =
+            (ff_walker){other->position, other->velocity, other->radius + WALKER_REACH};
     }
 }
 
