@@ -33,7 +33,7 @@ bool ff_action_is_usable(const ff_pack_action *r)
 {
     return r->mode != FF_MODE_CLIMB && fabsf(r->height) < FLAT && fabsf(r->rise) < LEVEL &&
            r->duration >= SHORTEST && r->duration <= LONGEST && r->collider_samples >= 2 &&
-           r->support != r->swing;
+           r->energy >= 0.0f && r->speed >= 0.0f && r->support != r->swing;
 }
 
 ff_action_class ff_action_class_of(const ff_pack_action *r)
