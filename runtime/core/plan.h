@@ -47,9 +47,9 @@ typedef struct ff_plan_step {
     double heading; /* rad, of the root when the action begins */
     double start;   /* s */
     uint32_t action;
-    uint32_t
-        hold; /* 1: no action, but standing in the last pose of one, whose anchor and heading these are, until the
-                      next step begins. The last step of a plan is a hold that does not end. */
+    /* 1: no action, but standing in the last pose of one, whose anchor and heading these are, until the next step begins.
+     * The last step of a plan is a hold that does not end. */
+    uint32_t hold;
 } ff_plan_step;
 
 typedef struct ff_plan {
@@ -219,28 +219,25 @@ typedef struct ff_plan_goal {
 #define FF_PLAN_WAIT 3.0
 
 typedef struct ff_plan_options {
-    uint32_t nodes;   /* how many may be expanded; default 300 */
-    uint32_t improve; /* of those, how many once there is a plan; default 60 */
-    uint32_t reserved;
-    double
-        seconds; /* wall clock on top of it; 0 (default) = none, then results depend on the arguments alone */
-    uint32_t horizon;      /* actions ahead, default 16, at most 20; 1 = purely reactive */
-    double time_horizon;   /* s: who gets so far has done enough; default 5.5, 0 = none */
-    double inflation;      /* of the heuristic in the first round; default 2.5 */
+    uint32_t nodes;      /* how many may be expanded; default 300 */
+    uint32_t improve;    /* of those, how many once there is a plan; default 60 */
+    double seconds;      /* wall clock on top; 0 (default): none, and results depend on the arguments alone */
+    uint32_t horizon;    /* actions ahead, default 16, at most 20; 1 = purely reactive */
+    double time_horizon; /* s: who gets so far has done enough; default 5.5, 0 = none */
+    double inflation;    /* of the heuristic in the first round; default 2.5 */
     double inflation_step; /* less of it in each further round, down to 1; 0 = one round only. Default 0.5 */
     double margin;         /* m, to keep from others on top of radii; default 0.05 */
     double stand_margin;   /* m, more of it where the plan stands in the end; default 0.03 */
     double wait;           /* price of waiting, in units of e_s; default 3 */
     double proximity_cost; /* J/(kg s) within proximity of somebody; default 0 */
     double proximity;      /* m; default 0.3 */
-    double view;           /* m, how far others are seen; default 9 */
-    uint32_t view_count;   /* how many, the nearest; default and at most 64 */
+    double view;           /* m, how far away those are now who can be met later; default 20 */
+    uint32_t view_count;   /* how many of them, the likeliest; default and at most 128 */
     uint8_t lazy;  /* actions are tested when they are looked at, not when they are thought of; default 1 */
     uint8_t safe;  /* plans end in a checked stop; default 1. 0: as in the paper */
     uint8_t table; /* the pack's reach table guides the search; default 1 */
     uint8_t merge; /* places that are nearly the same count as one; default 1 */
     uint8_t reactive; /* jumps and ducks too, for imminent danger; default 0 */
-    uint8_t unused[3];
 } ff_plan_options;
 ff_plan_options ff_plan_options_default(void);
 ff_plan_goal ff_plan_goal_at(ff_vec2 at);
@@ -268,7 +265,7 @@ void ff_plan_scratch_destroy(ff_plan_scratch *scratch); /* NULL is fine */
 
 /* A plan to the goal that begins where the step that current is doing at `time` ends (a hold ends at `time`). *out holds
  * that step too, so that it can be published at once, and may be current itself. What current says from there on is
- * looked at first: while the world is as it was, a new plan never costs more than it. */
+ * looked at first: while the world is as it was, a plan to the goal is never followed by a dearer one. */
 ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *world, const ff_plan *current,
                               double time, const ff_plan_goal *goal, const ff_plan_options *options,
                               ff_plan_scratch *scratch, ff_plan *out);
