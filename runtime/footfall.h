@@ -153,8 +153,7 @@ typedef enum ff_region_shape { FF_REGION_POINT, FF_REGION_CIRCLE, FF_REGION_BOX 
 typedef struct ff_region {
     uint32_t shape, unused;
     ff_vec2 centre; /* m */
-    ff_vec2
-        half; /* m. Circle: a is the radius. Box: half its length along heading, half its width to the left of it */
+    ff_vec2 half;   /* m. Circle: a is the radius. Box: half its sides, along heading and to the left of it */
     double heading; /* rad */
 } ff_region;
 
@@ -460,8 +459,7 @@ typedef struct ff_agent_def {
     double radius;          /* m, default 0.3 */
     ff_navigation navigation;
     ff_synthesis synthesis;
-    uint32_t
-        machine; /* of the crowd's behaviour, which then chooses goals; default FF_NONE: the caller does */
+    uint32_t machine; /* of the crowd's behaviour, which chooses goals; default FF_NONE: the caller does */
     ff_planner planner;
     uint32_t cookie; /* set by ff_agent_def_default() */
 } ff_agent_def;
@@ -475,6 +473,7 @@ void ff_crowd_destroy(ff_crowd *crowd); /* NULL is fine */
 
 ff_status ff_crowd_add_agent(ff_crowd *crowd, const ff_agent_def *def, ff_agent *out, ff_error *error);
 ff_status ff_crowd_remove_agent(ff_crowd *crowd, ff_agent agent, ff_error *error);
+/* Of an agent with a machine the goal holds until its next state, the speed for good: states have factors on it. */
 ff_status ff_crowd_set_goal(ff_crowd *crowd, ff_agent agent, ff_vec2 goal, ff_error *error);
 ff_status ff_crowd_set_preferred_speed(ff_crowd *crowd, ff_agent agent, double speed, ff_error *error);
 /* Where to look while it stands: FF_FACE_FREE, _POINT or _HEADING; at: the point, or a direction of any length. */
@@ -604,8 +603,8 @@ typedef struct ff_agent_behaviour {
 ff_status ff_crowd_agent_behaviour(const ff_crowd *crowd, ff_agent agent, ff_agent_behaviour *out,
                                    ff_error *error);
 uint32_t ff_crowd_goal_taken(const ff_crowd *crowd, uint32_t goal); /* by how many now */
-uint32_t ff_crowd_signal_phase(const ff_crowd *crowd,
-                               uint32_t signal); /* that it shows; FF_NONE: no such signal */
+/* That it shows; FF_NONE: there is no such signal. */
+uint32_t ff_crowd_signal_phase(const ff_crowd *crowd, uint32_t signal);
 
 /* How many were ever added (by the caller or by spawners), how many of those by spawners, and how many left by an exit. */
 typedef struct ff_crowd_counts {
