@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PLANS_PER_SECOND 1.5 /* and agent (footstep study, section 4.7: N / 40 at 60 Hz; too few starve) */
+#define PLANS_PER_SECOND                                                                                     \
+    1.0 /* and agent: who crosses makes 0.75, and what is made at once makes a long frame (study 4.7) */
 #define FEWEST_PLANS 2
 
 /* ------------------------------------------------------------------------------------------------- memory */
