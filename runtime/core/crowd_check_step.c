@@ -54,6 +54,9 @@ static bool track_fits(const ff_track *track)
 static bool entry_fits(const ff_crowd *crowd, const ff_play_step *step)
 {
     if (step->action != FF_PLAY_STAND && step->action >= crowd->pack->action_count) return false;
+    if (step->action == FF_PLAY_STAND && step->last != FF_PLAY_STAND &&
+        step->last >= crowd->pack->action_count)
+        return false;
     if (!within(step->start, LONGEST) || !within(step->entered, LONGEST)) return false;
     if (!(step->end >= -LONGEST && step->end <= FF_PLAY_FOREVER)) return false;
     if (!within(step->pace, 10.0) || !within(step->heading, LARGEST)) return false;

@@ -5,7 +5,8 @@
 
 /* Standing is where the action before has left the root, which the plan relies on: somebody who was captured with the weight on
  * one foot stands so. */
-static ff_play_step stand_at(const ff_root_frame *root, const ff_play_foot feet[2], double start)
+static ff_play_step stand_at(const ff_root_frame *root, const ff_play_foot feet[2], double start,
+                             uint32_t last)
 {
     ff_play_step step = {.start = start,
                          .end = FF_PLAY_FOREVER,
@@ -15,7 +16,8 @@ static ff_play_step stand_at(const ff_root_frame *root, const ff_play_foot feet[
                          .b = root->position.b,
                          .heading = root->heading,
                          .foot = {feet[0], feet[1]},
-                         .action = FF_PLAY_STAND};
+                         .action = FF_PLAY_STAND,
+                         .last = last};
     step.foot[0].planted = step.foot[1].planted = 1;
     return step;
 }
@@ -50,7 +52,7 @@ static void stand_next(const ff_play_set *set, ff_play *play)
     ff_play_foot feet[2];
     ff_play_feet_after(set, now, feet);
     ff_root_frame root = root_after(set, now);
-    play->step[1] = stand_at(&root, feet, now->end);
+    play->step[1] = stand_at(&root, feet, now->end, now->action == FF_PLAY_STAND ? now->last : now->action);
 }
 
 void ff_play_init(const ff_play_set *set, ff_play *play, const ff_play_order *last, double time,
@@ -140,7 +142,7 @@ void ff_play_join(const ff_play_set *set, ff_play *play, const ff_play_targets s
 static bool same_stand(const ff_play_step *p, const ff_play_step *q)
 {
     return p->action == FF_PLAY_STAND && q->action == FF_PLAY_STAND && p->a == q->a && p->b == q->b &&
-           p->heading == q->heading;
+           p->heading == q->heading && p->last == q->last;
 }
 
 static void next_entry(const ff_play_set *set, ff_play *play)
@@ -150,7 +152,9 @@ static void next_entry(const ff_play_set *set, ff_play *play)
     ff_play_targets shown[2];
     for (int i = 0; i < 2 && !same; ++i)
         ff_play_targets_at(set, play, time + i * LATER, &shown[i]);
+    double entered = play->step[0].entered;
     play->step[0] = play->step[1];
+    if (same) play->step[0].entered = entered;
     ff_play_next(set, play, NULL);
     if (!same) ff_play_join(set, play, shown, LATER, time);
 }
@@ -169,7 +173,7 @@ static ff_play_step freeze(const ff_play_targets *shown, double time)
     for (int foot = 0; foot < 2; ++foot)
         feet[foot] = (ff_play_foot){shown->ball[foot].z, shown->ball[foot].x,
                                     ff_play_foot_yaw(shown->foot[foot]), 1, 0};
-    return stand_at(&root, feet, time);
+    return stand_at(&root, feet, time, FF_PLAY_STAND);
 }
 
 void ff_play_cut(const ff_play_set *set, ff_play *play, const ff_play_order *order, double time)
@@ -192,7 +196,7 @@ void ff_play_enter(const ff_play_set *set, ff_play *play, const ff_play_order *o
     memset(play, 0, sizeof *play);
     play->idle_time = idle_time - time;
     bool stands = order->action == FF_PLAY_STAND || set->actions[order->action].idle;
-    play->step[0] = stands ? stand_at(&root, feet, time) : action_at(set, order, feet);
+    play->step[0] = stands ? stand_at(&root, feet, time, FF_PLAY_STAND) : action_at(set, order, feet);
     play->step[0].entered = time;
     ff_play_next(set, play, NULL);
     ff_play_join(set, play, shown, later, time);

@@ -30,7 +30,9 @@ typedef struct ff_play_step {
     double a, b;          /* m: the support ball (of FF_PLAY_STAND: the root) */
     double heading;       /* rad, of the root at the start */
     ff_play_foot foot[2]; /* as the action begins */
-    uint32_t action, unused;
+    uint32_t action;
+    uint32_t
+        last; /* of FF_PLAY_STAND: the action in whose last pose it stands; FF_PLAY_STAND: the idle example's */
 } ff_play_step;
 
 /* Plain data, no pointers, no padding. */

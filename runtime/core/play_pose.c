@@ -160,13 +160,32 @@ static void action_targets(const ff_play_set *set, const ff_play_step *step, dou
 
 /* ------------------------------------------------------------------------------------------- standing */
 
+/* The last pose of the action before, which plans rely on, moved by what the idle motion has done since. */
+static void stand_in_last_pose(const ff_play_set *set, const ff_play *play, const ff_play_step *step,
+                               ff_play_targets *out)
+{
+    ff_vec3 before;
+    ff_quat then[FF_JOINT_COUNT];
+    ff_play_sample at;
+    ff_gait_idle_pose(set->space, play->idle_time + step->entered, out->root, step->heading, &before, then);
+    ff_play_sample_at(set, step->last, set->actions[step->last].duration, &at);
+    ff_quat turn = ff_quat_yaw(step->heading - at.heading);
+    ff_vec2 hips = ff_from_frame2(ff_fwd2(step->heading - at.heading), ff_sub2(ff_plane(at.hips), at.root));
+    out->hips = ff_add3(ff_ground(ff_add2(out->root, hips), at.hips.y), ff_sub3(out->hips, before));
+    at.rotations[FF_JOINT_HIPS] = ff_quat_mul(turn, at.rotations[FF_JOINT_HIPS]);
+    for (int j = 0; j < FF_JOINT_COUNT; ++j)
+        out->rotations[j] =
+            ff_quat_unit(ff_quat_mul(ff_quat_mul(out->rotations[j], ff_quat_conj(then[j])), at.rotations[j]));
+}
+
 static void stand_targets(const ff_play_set *set, const ff_play *play, const ff_play_step *step, double time,
                           ff_play_targets *out)
 {
-    ff_vec2 root = ff_v2(step->a, step->b);
-    out->root = root;
+    out->root = ff_v2(step->a, step->b);
     out->heading = step->heading;
-    ff_gait_idle_pose(set->space, play->idle_time + time, root, step->heading, &out->hips, out->rotations);
+    ff_gait_idle_pose(set->space, play->idle_time + time, out->root, step->heading, &out->hips,
+                      out->rotations);
+    if (step->last != FF_PLAY_STAND) stand_in_last_pose(set, play, step, out);
     for (int foot = 0; foot < 2; ++foot) {
         const ff_play_foot *real = &step->foot[foot];
         out->ball[foot] = ff_v3(real->b, set->space->body.ball_rest, real->a);
