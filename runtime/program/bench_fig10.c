@@ -9,6 +9,7 @@
 #include "runtime/tool/progress.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #define STEP (1.0 / 60.0)
 #define TINY_NODES 20
@@ -42,6 +43,7 @@ typedef struct contacts {
     const ff_pack *pack;
     const ff_figure *figure;
     contact_row row[ROWS];
+    int count;
 } contacts;
 
 static ff_walk_trial trial_of(const contacts *all, const contact_row *row, int64_t seed)
@@ -122,7 +124,7 @@ static void print_rows(const contacts *all)
            "runs", "touched", "overlap", "deepest", "speed", "arrived", "last");
     printf("%-9s %-6s %6s %10s %5s | %8s %9s %8s | %7s %9s %6s\n", "", "", "", "", "", "%", "/100 s", "cm",
            "m/s", "", "s");
-    for (int i = 0; i < ROWS; ++i) {
+    for (int i = 0; i < all->count; ++i) {
         const contact_row *row = &all->row[i];
         char budget[24];
         if (row->budget_ms > 0.0)
@@ -139,7 +141,7 @@ static void print_rows(const contacts *all)
 static json_t *rows_json(const contacts *all)
 {
     json_t *list = json_array();
-    for (int i = 0; i < ROWS; ++i) {
+    for (int i = 0; i < all->count; ++i) {
         const contact_row *row = &all->row[i];
         json_array_append_new(list,
                               json_pack("{s:s,s:s,s:I,s:f,s:I,s:I,s:I,s:f,s:f,s:f,s:f,s:f}", "scene",
@@ -160,7 +162,7 @@ static ff_status write_csv(const contacts *all, const char *path, ff_error *erro
         &text,
         "scene,method,agents,budget_ms,nodes,runs,touched_runs,overlap,deepest_m,speed_to_goal,arrived,"
         "last_arrival_s\n");
-    for (int i = 0; i < ROWS; ++i) {
+    for (int i = 0; i < all->count; ++i) {
         const contact_row *row = &all->row[i];
         ff_text_add(&text, "%s,%s,%u,%.1f,%u,%lld,%lld,%.5f,%.4f,%.3f,%.0f,%.2f\n", row->scene, row->method,
                     row->agents, row->budget_ms, row->nodes, (long long)row->runs, (long long)row->touched,
@@ -187,7 +189,7 @@ static ff_status write_files(contacts *all, ff_error *error)
     return status == FF_OK ? ff_footstep_scenes_draw(all->pack, options->out, error) : status;
 }
 
-static int run_fig10(const ff_bench_options *options)
+static int run_fig10(const ff_bench_options *options, const char *scene)
 {
     ff_error error = {0};
     ff_pack *pack = NULL;
@@ -199,11 +201,12 @@ static int run_fig10(const ff_bench_options *options)
     if (status == FF_OK) status = ff_figure_from_pack(pack, &figure, &error);
     if (status == FF_OK && options->out) status = ff_folder_create(options->out, &error);
     for (int i = 0; i < ROWS; ++i) {
-        all.row[i] = rows[i];
+        if (scene && strcmp(scene, rows[i].scene) != 0) continue;
+        all.row[all.count++] = rows[i];
         runs += (uint64_t)runs_of(&all, &rows[i]);
     }
     ff_progress *progress = ff_progress_start("walking", runs, options->quiet);
-    for (int i = 0; i < ROWS && status == FF_OK; ++i)
+    for (int i = 0; i < all.count && status == FF_OK; ++i)
         status = run_row(&all, &all.row[i], progress, &error);
     ff_progress_end(progress);
     if (status == FF_OK) {
@@ -217,6 +220,12 @@ static int run_fig10(const ff_bench_options *options)
 int ff_bench_fig10_main(int argc, char **argv)
 {
     ff_bench_options given = {.seeds = 100, .first_seed = 1, .threads = 1};
+    const char *scene = NULL;
+    const ff_option own[] = {{.name = "--scene",
+                              .value_name = "NAME",
+                              .help = "four, circle or crossing (default: all)",
+                              .text = &scene},
+                             {0}};
     const ff_bench_command command = {
         .name = "bench fig10",
         .summary = "how bodies get past each other on footsteps",
@@ -224,7 +233,12 @@ int ff_bench_fig10_main(int argc, char **argv)
                  "a moved wall (8)",
         .seeds = "runs of the four (default 100); of the larger scenes one for every 20",
         .threads = "of each crowd (default 1)",
-        .own = NULL};
+        .own = own};
     int status = ff_bench_parse(&command, argc, argv, &given);
-    return status >= 0 ? status : run_fig10(&given);
+    if (status >= 0) return status;
+    bool known = !scene;
+    for (int i = 0; i < ROWS; ++i)
+        known = known || strcmp(scene, rows[i].scene) == 0;
+    return known ? run_fig10(&given, scene)
+                 : ff_bench_misuse(&command, "--scene", scene, "four, circle or crossing");
 }
