@@ -17,7 +17,8 @@ static void sample_joints(const ff_blend_space *space, const ff_gait *gait, cons
     ff_cursor idle;
     ff_quat still[FF_JOINT_COUNT];
     double share = ff_gait_idle_cursor(space, gait, &idle) ? ff_smooth(gait->stand) : 0.0;
-    bool between = share > 0.0 && share < 1.0, offset = ff_pose_offset_active(&gait->offset);
+    bool between = share > 0.0 && share < 1.0;
+    bool offset = share < 1.0 && ff_pose_offset_active(&gait->offset); /* who stands shows neither way */
     bool at_once = between && !offset && !cursor->clip;
     ff_sample_rotations(space, share >= 1.0 ? &idle : cursor, at_once ? &idle : NULL, share, rotations);
     for (int j = FF_JOINT_SPINE; j < FF_JOINT_COUNT && offset; ++j)
@@ -54,29 +55,40 @@ static void apply_style(const ff_blend_space *space, const ff_gait *gait, ff_qua
 #define FLAT_TO (5.0 * FF_DEG) /* pitch up to which a foot has no roll of its own */
 #define FREE_FROM (25.0 * FF_DEG)
 
-/* A foot near the ground is set by its yaw and pitch alone, so that it lies flat. One on its toes or in the air is
- * turned as in the clip, but for the yaw, taken as the twist about the vertical: the heading of a foot that hangs
- * straight down says nothing. */
+/* A foot near the ground is set by its yaw and pitch alone, so that it lies flat. One on its toes or in the air rolls as in
+ * the clip, but for the yaw, taken as the twist about the vertical: the heading of a foot that hangs straight down says
+ * nothing. Its pitch is the gait's: small steps of the semi-procedural clip do not lift the heel as high as the clip's. */
 static ff_quat foot_rotation(const ff_gait_foot *state, ff_quat clip)
 {
     ff_quat flat = ff_gait_foot_rotation(state->now.yaw, state->pitch);
     double share = ff_smooth((fabs(state->pitch) - FLAT_TO) / (FREE_FROM - FLAT_TO));
     if (share <= 0.0) return flat;
-    double twist = 2.0 * ff_atan2(clip.y, clip.w);
-    ff_quat free = ff_quat_mul(ff_quat_yaw(state->now.yaw - twist), clip);
-    return ff_quat_nlerp(flat, free, share);
+    ff_quat turn = ff_quat_mul(ff_quat_yaw(-2.0 * ff_atan2(clip.y, clip.w)), clip);
+    ff_vec3 ahead = ff_quat_rotate(turn, ff_v3(0.0, 0.0, 1.0));
+    double up = ff_wrap(state->pitch - ff_atan2(ahead.y, ahead.z));
+    turn = ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), turn);
+    return ff_quat_nlerp(flat, ff_quat_mul(ff_quat_yaw(state->now.yaw), turn), share);
 }
 
 #define ROLLS (20.0 * FF_DEG) /* pitch of a foot that is up on its toes */
 #define FLIES 0.08            /* of the swing, from where on, and until where before its end, a foot flies */
+#define TOES_RELAX 0.42 /* of the swing, in which toes that the floor has bent come back to the clip's */
 
 static ff_leg_target target_of(const ff_gait_foot *state, ff_quat clip)
 {
     double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
     double swing = state->planted ? 0.0 : state->progress;
     double round = ff_max(ff_smooth(-state->pitch / ROLLS), ff_min(ff_min(swing, 1.0 - swing) / FLIES, 1.0));
-    return (ff_leg_target){
-        state->now, foot_rotation(state, clip), TOE_CLEARANCE * arc, MOST_RAISE, 1.0, swing, round};
+    /* A foot that rises quickly is off the floor before its toes have come back from where that has bent them. */
+    double bent = state->planted ? 0.0 : 1.0 - ff_smooth(swing / TOES_RELAX);
+    return (ff_leg_target){.ball = state->now,
+                           .turn = foot_rotation(state, clip),
+                           .clearance = TOE_CLEARANCE * arc,
+                           .most_raise = MOST_RAISE,
+                           .grip = 1.0,
+                           .swing = swing,
+                           .round = round,
+                           .bent = bent};
 }
 
 static void pose_legs(const ff_body_frame *body, const ff_gait *gait, ff_vec3 hips, ff_quat *rotations)

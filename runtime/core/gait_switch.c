@@ -6,15 +6,17 @@
 /* m: mean distance of the poses of two cycles at equal phase, up to which any moment is as good as a pair. The study found
  * that in straight walking and turns it is 2 to 7 cm all the time, and waiting for pairs gains nothing. */
 #define AT_ONCE 0.08
-#define JUST_NOW 0.12    /* of a cycle: so long a pair is still good, should a foot have to land first */
-#define IN_REACH 0.12    /* m/s, by which rates may be outside what the new way can do */
-#define LEAST_FLIGHT 0.1 /* s to the landing: a foot that is about to land does so first */
-#define SHORT_SWING 1.0  /* u: a foot that has landed is not lifted again for less */
-#define OFF_BEFORE 0.8   /* of the time to the landing: steps may quicken yet */
-#define URGENT_WAIT 0.3  /* s: who must switch waits no longer for a pair */
-#define PACE_TIME 0.5f   /* s, of hips and joints between a walk and a run: elbows have 70 degrees to go */
-#define RUN_FROM 1.35    /* m/s, from where on one may break into a run */
-#define WALK_FROM 1.95   /* m/s, below which a run may become a walk */
+#define JUST_NOW 0.12     /* of a cycle: so long a pair is still good, should a foot have to land first */
+#define IN_REACH 0.12     /* m/s, by which rates may be outside what the new way can do */
+#define LEAST_FLIGHT 0.1  /* s to the landing: a foot that is about to land does so first */
+#define LEAST_STANCE 0.08 /* s to the lift: no sooner is a foot lifted in the new way */
+#define MOST_DELAY 1.5    /* of the time to the landing: a foot nearly down does not wait over the floor */
+#define SHORT_SWING 1.0   /* u: a foot that has landed is not lifted again for less */
+#define OFF_BEFORE 0.8    /* of the time to the landing: steps may quicken yet */
+#define URGENT_WAIT 0.3   /* s: who must switch waits no longer for a pair */
+#define PACE_TIME 0.5f    /* s, of hips and joints between a walk and a run: elbows have 70 degrees to go */
+#define RUN_FROM 1.35     /* m/s, from where on one may break into a run */
+#define WALK_FROM 1.95    /* m/s, below which a run may become a walk */
 /* Of a step: the part of the stance on one foot in which a walk may become a run, and back; and the shares of the stance at
  * which a walk's other foot leaves and lands, by which one is laid on the other. */
 #define ONE_FOOT_FROM 0.1
@@ -142,11 +144,31 @@ static ff_gait_root root_later(const ff_gait_root *root, double time)
     return later;
 }
 
+/* Of a foot in the air, s, as things are. */
+static double time_to_landing(const ff_blend_space *space, const ff_gait *gait, int foot)
+{
+    double start, length;
+    ff_blend_lock(space, &gait->blend, foot, &start, &length);
+    double left = ff_phase_wrap(start - gait->phase);
+    return ff_phase_duration(space, &gait->blend, gait->phase, gait->phase + left) / gait->pace;
+}
+
+/* A foot that stands, with its lift at a phase, in the new way already. One that is late for it is not: it may step at once. */
+static bool about_to_lift(const ff_blend_space *space, const ff_gait *gait, double lift)
+{
+    double left = ff_phase_wrap(lift - gait->phase);
+    return ff_phase_duration(space, &gait->blend, gait->phase, gait->phase + left) <
+           LEAST_STANCE * gait->pace;
+}
+
 /* Put the clock where the new way has this phase; feet in the air keep their share of the swing. False: the new way would
- * have a foot standing that is in the air, or one is about to land in either. */
+ * have a foot standing that is in the air, one is about to land or to lift, or would land much later. */
 static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend *next, double phase,
                       double until[2])
 {
+    double before[2];
+    for (int f = 0; f < 2; ++f)
+        before[f] = time_to_landing(space, gait, f);
     gait->blend = *next;
     gait->phase = phase;
     for (int f = 0; f < 2; ++f) {
@@ -156,9 +178,11 @@ static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend
         double left = ff_phase_wrap(start - phase);
         until[f] = FF_POSE_OFFSET_TIME;
         if (foot->planted && left < SHORT_SWING) return false;
+        if (foot->planted && about_to_lift(space, gait, start + length)) return false;
         if (foot->planted) continue;
         double time = ff_phase_duration(space, next, phase, phase + left) / gait->pace;
         if (left >= FF_GAIT_KEYS - length || time < LEAST_FLIGHT) return false;
+        if (before[f] < LEAST_FLIGHT || time > MOST_DELAY * before[f]) return false;
         double done = ff_min(foot->progress, 0.95);
         foot->phase_left = left;
         foot->elapsed = done * time / (1.0 - done);

@@ -50,6 +50,8 @@ static ff_quat heel_in_reach(const ff_body_frame *body, ff_foothold ball, int fo
     return ff_quat_mul(ff_quat_axis(lateral, raise), rotation);
 }
 
+#define MOST_BEND (80.0 * FF_DEG)
+
 /* Toes bend up where the floor is in their way: at push-off, and in mid swing to keep clear of it. */
 static ff_quat toes_on_floor(const ff_body_frame *body, const ff_leg_target *target, int foot,
                              ff_quat foot_turn, ff_quat toes)
@@ -57,11 +59,15 @@ static ff_quat toes_on_floor(const ff_body_frame *body, const ff_leg_target *tar
     ff_vec3 tip = ff_quat_rotate(foot_turn, ff_quat_rotate(toes, body->toe[foot]));
     ff_foothold ball = target->ball;
     double least = body->ball_rest + body->toe[foot].y + target->clearance - ball.height;
-    if (tip.y >= least) return toes;
-    double ahead = tip.z * ff_cos(ball.yaw) + tip.x * ff_sin(ball.yaw);
-    double length = sqrt(ahead * ahead + tip.y * tip.y);
-    double wanted = 0.5 * FF_PI - ff_acos(least / ff_max(length, 1e-6));
-    double up = ff_clamp(wanted - ff_atan2(tip.y, ahead), 0.0, 80.0 * FF_DEG);
+    if (tip.y >= least && target->bent <= 0.0) return toes;
+    double ahead = tip.z * ff_cos(ball.yaw) + tip.x * ff_sin(ball.yaw), now = ff_atan2(tip.y, ahead);
+    double length = sqrt(ahead * ahead + tip.y * tip.y), up = 0.0;
+    if (tip.y < least) up = 0.5 * FF_PI - ff_acos(least / ff_max(length, 1e-6)) - now;
+    if (target->bent > 0.0) {
+        double own = -2.0 * ff_atan2(toes.x, toes.w), flat = ff_atan2(body->toe[foot].y, body->toe[foot].z);
+        up = ff_max(up, target->bent * (own + flat - now) - own);
+    }
+    up = ff_clamp(up, 0.0, MOST_BEND);
     return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), toes);
 }
 

@@ -21,6 +21,7 @@ typedef struct ff_leg_target {
     double grip;
     double swing; /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
     double round; /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
+    double bent; /* 0 to 1: how much of the bend that toes flat on the floor would have, they have at least */
 } ff_leg_target;
 
 /* Solve legs (as ff_legs_of_clip gives them) to their targets, left and right, and write each leg's four local rotations,
