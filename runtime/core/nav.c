@@ -136,6 +136,8 @@ void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *n
     if (constrained && mind->standing && world->mcn->make_way)
         mind->preferred = ff_nav_make_way(world, self, neighbours, count);
     preferred = ff_nav_keep_right(world, self, view.walls, view.wall_count, traits, preferred, mind);
+    if (constrained && world->mcn->progress)
+        preferred = ff_nav_fall_back(world, self, neighbours, count, preferred);
     if (constrained) {
         ff_constraints lines;
         gather(&view, body, preferred, mind, &lines);

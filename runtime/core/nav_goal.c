@@ -22,6 +22,12 @@
 #define WAY_SPEED 0.5  /* m/s */
 #define WAY_LEAST 0.05 /* m/s: who wants less than that needs no way */
 
+#define LOCK_GAP 0.15  /* m between two who walk shoulder to shoulder */
+#define LOCK_SPEED 0.3 /* m/s of both together, from which they walk */
+#define LOCK_CROSS                                                                                           \
+    0.3               /* of a preferred velocity: the share across, from which it leads to the other's side */
+#define FALL_BACK 0.4 /* of the preferred speed */
+
 #define MEET_TIME 5.0   /* s */
 #define MEET_WIDTH 0.6  /* m, by which a pass is called a meeting although nobody would touch */
 #define EASE 0.5        /* s */
@@ -164,6 +170,34 @@ ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_wal
     double angle = -world->keep_right * mind->bias * fade;
     double room = room_beside(walls, wall_count, me, preferred, turned(preferred, angle));
     return turned(preferred, angle * room);
+}
+
+/* Whether two who walk beside each other each want to where the other is, and who wants to go on
+ * less (of equals, the later slot). */
+static bool locked(const ff_seen *me, const ff_seen *other)
+{
+    ff_vec2 x = ff_sub2(other->position, me->position), both = ff_add2(me->velocity, other->velocity);
+    double distance = ff_length2(x);
+    if (other->standing || distance > me->radius + other->radius + LOCK_GAP ||
+        ff_length2(both) < 2.0 * LOCK_SPEED || ff_dot2(me->velocity, other->velocity) <= 0.0)
+        return false;
+    ff_vec2 along = ff_unit2(both);
+    double ahead = ff_dot2(along, x), beside = ff_det2(along, x);
+    if (fabs(ahead) > fabs(beside)) return false;
+    double side = beside > 0.0 ? 1.0 : -1.0;
+    bool crossing = side * ff_det2(along, ff_unit2(me->preferred)) > LOCK_CROSS &&
+                    -side * ff_det2(along, ff_unit2(other->preferred)) > LOCK_CROSS;
+    double eager = ff_dot2(along, ff_sub2(other->preferred, me->preferred));
+    return crossing && (eager > 0.0 || (eager == 0.0 && me->slot > other->slot));
+}
+
+ff_vec2 ff_nav_fall_back(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
+                         uint32_t count, ff_vec2 preferred)
+{
+    for (uint32_t i = 0; i < count; ++i)
+        if (locked(&world->grid->seen[self], &world->grid->seen[neighbours[i].index]))
+            return ff_scale2(preferred, FALL_BACK);
+    return preferred;
 }
 
 ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,

@@ -18,4 +18,9 @@ ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_wal
 ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
                         uint32_t count);
 
+/* Two who walk shoulder to shoulder, each wanting to where the other is, hold each other off their ways for as long as
+ * they go on like that: the one who wants to go on less slows down, and passes behind the other. */
+ff_vec2 ff_nav_fall_back(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
+                         uint32_t count, ff_vec2 preferred);
+
 #endif

@@ -103,6 +103,31 @@ static void who_looks_away_from_the_goal_turns_and_goes(void **state)
     }
 }
 
+/* Shoulder to shoulder, each with a new goal beyond the other. */
+static void two_side_by_side_who_must_change_sides_do_so_on_the_way(void **state)
+{
+    (void)state;
+    double last[2] = {0.0, 0.0};
+    for (int both = 0; both < 2; ++both) {
+        ff_crowd *crowd = new_crowd(2, 1);
+        ff_error error;
+        ff_agent pair[2] = {add(crowd, ff_v2(0, 0), ff_v2(20, 0))};
+        if (both) pair[1] = add(crowd, ff_v2(0, 0.66), ff_v2(20, 0.66));
+        for (int i = 0; i < 90; ++i)
+            ff_crowd_step(crowd);
+        for (int k = 0; k <= both; ++k) {
+            ff_vec2 to = ff_add2(state_of(crowd, pair[k]).position, ff_v2(1.5, k ? -1.3 : 1.3));
+            FF_ASSERT_OK(ff_crowd_set_goal(crowd, pair[k], to, &error), error);
+        }
+        for (int k = 0; k <= both; ++k)
+            for (int i = 0; i < 900 && !state_of(crowd, pair[k]).reached; ++i, last[both] += 1.0 / 30.0)
+                ff_crowd_step(crowd);
+        print_message("%s: %.1f s\n", both ? "both" : "alone", last[both]);
+        ff_crowd_destroy(crowd);
+    }
+    FF_ASSERT_BELOW(last[1], last[0] + 1.4); /* 1.7 when neither falls back */
+}
+
 static void two_who_meet_head_on_pass_each_other_on_the_right(void **state)
 {
     (void)state;
@@ -348,6 +373,7 @@ int main(void)
         cmocka_unit_test(a_lone_walker_goes_straight_to_the_goal_and_stands_there_without_dithering),
         cmocka_unit_test(slow_people_reach_small_goals_and_fast_ones_do_not_overshoot),
         cmocka_unit_test(who_looks_away_from_the_goal_turns_and_goes),
+        cmocka_unit_test(two_side_by_side_who_must_change_sides_do_so_on_the_way),
         cmocka_unit_test(two_who_meet_head_on_pass_each_other_on_the_right),
         cmocka_unit_test(people_on_one_point_part_without_nan),
         cmocka_unit_test(many_with_one_goal_settle_round_it),
