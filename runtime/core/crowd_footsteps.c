@@ -7,8 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PLANS_PER_SECOND                                                                                     \
-    1.0 /* and agent: who crosses makes 0.75, and what is made at once makes a long frame (study 4.7) */
+/* A second and agent: who crosses makes 0.65, where it is dense in 75 nodes; what is made at once makes a long frame
+ * (study 4.7). */
+#define PLANS_PER_SECOND 0.9
+#define NODES_PER_SECOND 100.0
 #define FEWEST_PLANS 2
 
 /* ------------------------------------------------------------------------------------------------- memory */
@@ -68,6 +70,7 @@ ff_status ff_footsteps_create(ff_crowd *crowd, ff_error *error)
     crowd->footsteps = f;
     f->options = options_of(&def->footsteps);
     f->job_max = most_jobs(def);
+    f->node_max = (uint64_t)(NODES_PER_SECOND * def->step * def->max_agents);
     ff_status status = ff_action_set_create(crowd->pack, def->footsteps.actions, &f->actions, error);
     if (status == FF_OK) status = ff_play_set_create(crowd->pack, crowd->space, &f->play, error);
     if (status == FF_OK) status = ff_solids_reserve(def->max_walls + def->max_obstacles, &f->solids, error);

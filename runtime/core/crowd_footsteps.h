@@ -95,9 +95,11 @@ typedef struct ff_footsteps {
     ff_plan_lane lane[FF_PLAN_LANES];
     ff_plan_job *jobs; /* [job_max] */
     uint32_t job_max, job_count;
-    uint32_t *order;   /* [job_max] of slots */
-    ff_bounds *bounds; /* [max_agents], by slot */
-    atomic_uint next_job;
+    uint64_t node_max;    /* of a step: no more searches are begun then */
+    uint32_t *order;      /* [job_max] of slots */
+    ff_bounds *bounds;    /* [max_agents], by slot */
+    atomic_uint next_job; /* of this step; up to job_end */
+    uint32_t job_end, spare;
     uint32_t
         *changed; /* slots whose plans came into force in the last step, or that began with footsteps since */
     uint32_t changed_count;

@@ -14,6 +14,7 @@
 #define WAYPOINT_REACH 0.6 /* m */
 #define IMMINENT 1.0       /* s */
 
+enum { AT_ONCE = 8 };        /* searches between two looks at how many nodes there were */
 enum { FIRST, SOON, LATER }; /* urgency */
 
 /* ------------------------------------------------------------------------------------------------- whose turn */
@@ -206,8 +207,29 @@ static void run_lane(void *context, uint32_t index)
 {
     ff_crowd *crowd = ((lane_work *)context)->crowd;
     ff_footsteps *f = crowd->footsteps;
-    for (uint32_t i; (i = atomic_fetch_add(&f->next_job, 1u)) < f->job_count;)
+    for (uint32_t i; (i = atomic_fetch_add(&f->next_job, 1u)) < f->job_end;)
         search(crowd, &f->jobs[i], &f->lane[index]);
+}
+
+/* A few at a time, until all are done or they have looked at as many nodes as a step may: so no frame is much longer than the
+ * others, and which are done does not depend on the number of threads. The others ask again in the next step. */
+static void search_all(ff_crowd *crowd)
+{
+    ff_footsteps *f = crowd->footsteps;
+    lane_work work = {crowd};
+    uint64_t nodes = 0;
+    uint32_t done = 0;
+    while (done < f->job_count && (done == 0 || nodes < f->node_max)) {
+        f->job_end = done + AT_ONCE < f->job_count ? done + AT_ONCE : f->job_count;
+        atomic_store(&f->next_job, done);
+        if (crowd->def.tasks)
+            crowd->def.tasks(crowd->def.task_pool, f->lane_count, run_lane, &work);
+        else
+            ff_tasks_for(crowd->own_tasks, f->lane_count, 1, run_lane, &work);
+        for (; done < f->job_end; ++done)
+            nodes += f->jobs[done].counts.nodes;
+    }
+    f->job_count = done;
 }
 
 /* ------------------------------------------------------------------------------------------------- in force */
@@ -262,12 +284,7 @@ double ff_footsteps_plan(ff_crowd *crowd)
         crowd->steppers[f->changed[i]].changed = 0;
     f->changed_count = 0;
     choose_jobs(crowd, time);
-    lane_work work = {crowd};
-    atomic_store(&f->next_job, 0u);
-    if (crowd->def.tasks)
-        crowd->def.tasks(crowd->def.task_pool, f->lane_count, run_lane, &work);
-    else
-        ff_tasks_for(crowd->own_tasks, f->lane_count, 1, run_lane, &work);
+    search_all(crowd);
     sort_by_slot(f, f->order);
     for (uint32_t i = 0; i < f->job_count; ++i)
         put_in_force(crowd, &f->jobs[f->order[i]], time);

@@ -1,5 +1,7 @@
 #include "runtime/core/plan_hit.h"
 
+#define SLACK 1e-3f /* m, more than roundings come to */
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -12,23 +14,25 @@ ff_limits ff_limits_of(float margin)
             float near = ff_collider_radius[i] + ff_collider_radius[k] + margin;
             limits.squared[i][k] = near > 0.0f ? near * near : -1.0f;
         }
+    for (int k = 0; k < FF_TRACK_LANES; ++k)
+        limits.reach[k] = ff_collider_radius[k] + margin + SLACK;
     return limits;
 }
 
 float ff_knot_radius(const ff_knot *knot)
 {
-    float most = 0.0f; /* of those of each radius: head, hands, feet */
-    float limit[3] = {0.0f, 0.0f, 0.0f};
-    static const int of[FF_COLLIDER_ROOT] = {0, 1, 1, 2, 2};
-    for (int i = 0; i < FF_COLLIDER_ROOT; ++i) {
-        float a = knot->a[i] - knot->a[FF_COLLIDER_ROOT], b = knot->b[i] - knot->b[FF_COLLIDER_ROOT];
-        float square = a * a + b * b;
-        limit[of[i]] = square > limit[of[i]] ? square : limit[of[i]];
+    float square[FF_TRACK_LANES], a = knot->a[FF_COLLIDER_ROOT], b = knot->b[FF_COLLIDER_ROOT];
+    for (int i = 0; i < FF_TRACK_LANES; ++i) {
+        float da = knot->a[i] - a, db = knot->b[i] - b;
+        square[i] = da * da + db * db;
     }
-    for (int i = 0; i < 3; ++i) {
-        float out = sqrtf(limit[i]) + ff_collider_radius[2 * i];
-        most = out > most ? out : most;
-    }
+    /* Of those of one radius, the furthest: head, hands, feet. */
+    float hand = square[1] > square[2] ? square[1] : square[2];
+    float foot = square[3] > square[4] ? square[3] : square[4];
+    float most = sqrtf(square[0]) + ff_collider_radius[0];
+    float by_hand = sqrtf(hand) + ff_collider_radius[1], by_foot = sqrtf(foot) + ff_collider_radius[3];
+    most = by_hand > most ? by_hand : most;
+    most = by_foot > most ? by_foot : most;
     return most > ff_collider_radius[FF_COLLIDER_ROOT] ? most : ff_collider_radius[FF_COLLIDER_ROOT];
 }
 
@@ -84,13 +88,41 @@ static bool share_height(int i, const ff_knot *x0, const ff_knot *x1, int k, con
            fminf(low[1][0], low[1][1]) <= fmaxf(high[0][0], high[0][1]);
 }
 
-bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
-                  float b, const ff_limits *limits)
+/* Bits of the colliders of mine and theirs that are looked at. */
+static bool lanes_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                      float b, unsigned mine, unsigned theirs, const ff_limits *limits)
 {
-    for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
-        unsigned near = near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i]);
+    for (int i = 0; mine; ++i, mine >>= 1) {
+        if (!(mine & 1u)) continue;
+        unsigned near = near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i]) & theirs;
         for (int k = 0; near; ++k, near >>= 1)
             if ((near & 1u) && share_height(i, x0, x1, k, y0, y1)) return true;
     }
     return false;
+}
+
+bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                  float b, const ff_limits *limits)
+{
+    const unsigned all = (1u << FF_COLLIDER_COUNT) - 1u;
+    return lanes_hit(x0, x1, y0, y1, a, b, all, all, limits);
+}
+
+/* Bit k: collider k of theirs comes near the body about my root. */
+static unsigned near_body(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                          float b, float radius, const ff_limits *limits)
+{
+    float squared[FF_TRACK_LANES];
+    for (int k = 0; k < FF_TRACK_LANES; ++k)
+        squared[k] = (limits->reach[k] + radius) * (limits->reach[k] + radius);
+    return near_lanes(FF_COLLIDER_ROOT, x0, x1, y0, y1, a, b, squared);
+}
+
+bool ff_bodies_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                   float b, float mine, float theirs, const ff_limits *limits)
+{
+    unsigned of_theirs = near_body(x0, x1, y0, y1, a, b, mine, limits);
+    if (!of_theirs) return false;
+    unsigned of_mine = near_body(y0, y1, x0, x1, -a, -b, theirs, limits);
+    return lanes_hit(x0, x1, y0, y1, a, b, of_mine, of_theirs, limits);
 }

@@ -7,6 +7,8 @@
 /* Squares of how near colliders may come: [mine][theirs]. */
 typedef struct ff_limits {
     float squared[FF_COLLIDER_COUNT][FF_TRACK_LANES];
+    float reach
+        [FF_TRACK_LANES]; /* m, not squared: of each, with the margin, to something of no size; a little more */
 } ff_limits;
 ff_limits ff_limits_of(float margin);
 
@@ -41,5 +43,10 @@ static inline bool ff_roots_near(const ff_knot *x0, const ff_knot *x1, const ff_
 /* Do any two colliders come nearer than the limits, and are they at a height? */
 bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
                   float b, const ff_limits *limits);
+
+/* The same for bodies that radii (mine, theirs) about their roots hold, at both moments: those colliders are looked at alone
+ * that come near the other body. */
+bool ff_bodies_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                   float b, float mine, float theirs, const ff_limits *limits);
 
 #endif

@@ -192,7 +192,7 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
 ff_plan_options ff_plan_options_default(void)
 {
     return (ff_plan_options){.nodes = 300,
-                             .improve = 60,
+                             .improve = 15,
                              .horizon = 16,
                              .time_horizon = 5.5,
                              .inflation = 2.5,

@@ -65,6 +65,7 @@ struct ff_action_set {
     ff_set_next *next;
     ff_set_stop *stops;
     ff_knot *samples;
+    float *about; /* [knot_total] m: radii about the root that hold all colliders of a sample */
     uint32_t next_total, knot_total, stop_total;
     uint32_t next_most; /* successors of one action */
     float stop_cost;    /* J/kg: the cheapest way to a stand, from where that is dearest */
@@ -72,7 +73,8 @@ struct ff_action_set {
 };
 
 /* Colliders of an action at t seconds from its start, in S0. */
-static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *action, float t, ff_knot *out)
+static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *action, float t,
+                                 ff_knot *restrict out)
 {
     float at = t * (float)(action->knots - 1) / action->duration;
     int k = (int)at;
@@ -80,11 +82,22 @@ static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *
     float f = at - (float)k;
     f = f < 0.0f ? 0.0f : (f > 1.0f ? 1.0f : f);
     const ff_knot *p = &set->samples[action->first_knot + (uint32_t)k], *q = p + 1;
-    for (int i = 0; i < FF_TRACK_LANES; ++i) {
+    /* Loop by loop, which compilers make four lanes at a time of. */
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
         out->a[i] = p->a[i] + f * (q->a[i] - p->a[i]);
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
         out->b[i] = p->b[i] + f * (q->b[i] - p->b[i]);
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
         out->y[i] = p->y[i] + f * (q->y[i] - p->y[i]);
-    }
+}
+
+/* A radius about the root that holds all of them then. */
+static inline float ff_set_about(const ff_action_set *set, const ff_set_action *action, float t)
+{
+    int k = (int)(t * (float)(action->knots - 1) / action->duration);
+    k = k < 0 ? 0 : (k > (int)action->knots - 2 ? (int)action->knots - 2 : k);
+    const float *about = &set->about[action->first_knot + (uint32_t)k];
+    return (about[0] > about[1] ? about[0] : about[1]) + 1e-4f; /* which roundings do not come to */
 }
 
 /* Share of the jump at a joint that is left t seconds into the action. */

@@ -1,6 +1,8 @@
 /* Is the next action, or standing, free of what is seen? See plan_sight.h. */
 #include "runtime/core/plan_sight.h"
 
+#include <string.h>
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -21,9 +23,9 @@ static bool meets(const ff_sight_track *seen, int32_t knot, const ff_knot *p, co
 {
     float r0, r1;
     const ff_knot *y0 = track_knot(seen, knot, &r0), *y1 = track_knot(seen, knot + 1, &r1);
-    float reach = radius + (r0 > r1 ? r0 : r1) + margin;
+    float theirs = r0 > r1 ? r0 : r1, reach = radius + theirs + margin;
     return ff_roots_near(p, q, y0, y1, seen->a, seen->b, reach) &&
-           ff_knots_hit(p, q, y0, y1, seen->a, seen->b, limits);
+           ff_bodies_hit(p, q, y0, y1, seen->a, seen->b, radius, theirs, limits);
 }
 
 /* Adds to the list who takes up room within radius of (a, b) in one of the chunks [from, to]. */
@@ -101,15 +103,16 @@ static bool mover_near(const ff_sight_mover *m, int32_t from, int32_t to, float 
 
 /* An action's colliders at t seconds in its place. */
 static void place(const ff_action_set *set, const ff_set_action *action, const float anchor[2], float c,
-                  float s, float t, ff_knot *out)
+                  float s, float t, ff_knot *restrict out)
 {
     ff_knot local;
+    float a = anchor[0], b = anchor[1];
     ff_set_sample(set, action, t, &local);
-    for (int i = 0; i < FF_TRACK_LANES; ++i) {
-        out->a[i] = anchor[0] + c * local.a[i] - s * local.b[i];
-        out->b[i] = anchor[1] + s * local.a[i] + c * local.b[i];
-        out->y[i] = local.y[i];
-    }
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
+        out->a[i] = a + c * local.a[i] - s * local.b[i];
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
+        out->b[i] = b + s * local.a[i] + c * local.b[i];
+    memcpy(out->y, local.y, sizeof out->y);
 }
 
 static float furthest(const ff_knot *p, const ff_knot *q)
@@ -153,9 +156,10 @@ typedef struct course {
     const ff_set_action *action;
     const float *anchor;
     float a, b, radius;            /* m: circle that holds all of it */
+    float jump;                    /* m, the furthest that the joint moves any collider */
     uint32_t count;                /* knots; 0: not made yet */
     ff_knot knots[FF_SIGHT_KNOTS]; /* [0] is the stance's tail */
-    float about[FF_SIGHT_KNOTS];   /* radii about the root */
+    float about[FF_SIGHT_KNOTS];   /* radii about the root, that hold all colliders */
 } course;
 
 /* What the joint moves the colliders by at first. */
@@ -190,7 +194,8 @@ static void make_course(const ff_sight *sight, course *c)
                 to->b[i] += left * jump.b[i];
                 to->y[i] += left * jump.y[i];
             }
-        c->about[n] = ff_knot_radius(to);
+        /* Of the samples on both sides; the joint may move the root one way and a hand the other. */
+        c->about[n] = ff_set_about(sight->set, b, t) + 2.0f * left * c->jump;
     }
     c->count = n;
 }
@@ -263,6 +268,7 @@ bool ff_stance_free(const ff_sight *sight, ff_stance *st, const ff_set_next *nex
     c.stance = st;
     c.action = b;
     c.anchor = next->other ? st->other : st->at;
+    c.jump = next->jump;
     c.count = 0;
     c.a = c.anchor[0] + st->cosine * b->circle[0] - st->sine * b->circle[1];
     c.b = c.anchor[1] + st->sine * b->circle[0] + st->cosine * b->circle[1];

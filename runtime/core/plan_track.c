@@ -179,9 +179,10 @@ bool ff_track_conflict(const ff_track *x, const ff_track *y, double from, double
     do {
         const ff_knot *x0 = knot_at(x, k, &rx[0]), *x1 = knot_at(x, k + 1, &rx[1]);
         const ff_knot *y0 = knot_at(y, k, &ry[0]), *y1 = knot_at(y, k + 1, &ry[1]);
-        float reach = high_of(rx[0], rx[1]) + high_of(ry[0], ry[1]) + (float)margin;
+        float mine = high_of(rx[0], rx[1]), theirs = high_of(ry[0], ry[1]),
+              reach = mine + theirs + (float)margin;
         if (ff_roots_near(x0, x1, y0, y1, (float)apart.a, (float)apart.b, reach) &&
-            ff_knots_hit(x0, x1, y0, y1, (float)apart.a, (float)apart.b, &limits)) {
+            ff_bodies_hit(x0, x1, y0, y1, (float)apart.a, (float)apart.b, mine, theirs, &limits)) {
             if (when) *when = (double)k * FF_TRACK_STEP;
             return true;
         }

@@ -30,6 +30,7 @@ typedef struct run {
     ff_crowd *crowd;
     walker *walkers;
     double *frame; /* s, per step */
+    double *work;  /* s of the processors, per step: what a frame takes whatever else the machine does */
     ff_matrix *matrices;
     ff_random random;
     double side; /* m, of a crossing */
@@ -37,10 +38,10 @@ typedef struct run {
     double walked, toward, contact;
 } run;
 
-static double now(void)
+static double now(clockid_t clock)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(clock, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
@@ -177,10 +178,11 @@ static ff_status take_shot(run *r, uint32_t step, uint32_t steps, ff_error *erro
 static ff_status step_crowd(run *r, uint32_t step, uint32_t steps, ff_error *error)
 {
     static const ff_vec2 origin = {0.0, 0.0};
-    double start = now();
+    double start = now(CLOCK_MONOTONIC), began = now(CLOCK_PROCESS_CPUTIME_ID);
     ff_crowd_step(r->crowd);
     ff_status status = ff_crowd_matrices(r->crowd, origin, r->matrices, r->trial->agents, error);
-    r->frame[step] = now() - start;
+    r->work[step] = now(CLOCK_PROCESS_CPUTIME_ID) - began;
+    r->frame[step] = now(CLOCK_MONOTONIC) - start;
     for (uint32_t i = 0; i < r->trial->agents && status == FF_OK; ++i)
         look_at(r, &r->walkers[i], (step + 1) * r->trial->step);
     if (status == FF_OK) status = count_contacts(r, error);
@@ -205,16 +207,22 @@ static void sum_counts(const run *r, ff_plan_counts *sum)
     }
 }
 
+/* ms; sorts them. */
+static ff_walk_times times_of(double *seconds, uint32_t steps)
+{
+    double total = 0.0;
+    for (uint32_t i = 0; i < steps; ++i)
+        total += seconds[i];
+    qsort(seconds, steps, sizeof *seconds, by_place);
+    return (ff_walk_times){1e3 * total / steps, 1e3 * seconds[(uint32_t)(0.99 * (steps - 1))],
+                           1e3 * seconds[steps - 1]};
+}
+
 static void finish(run *r, uint32_t steps)
 {
     ff_walk_measures *out = &r->out;
-    double total = 0.0;
-    for (uint32_t i = 0; i < steps; ++i)
-        total += r->frame[i];
-    qsort(r->frame, steps, sizeof *r->frame, by_place);
-    out->fps_mean = steps / total;
-    out->frame_ms_p99 = 1e3 * r->frame[(uint32_t)(0.99 * (steps - 1))];
-    out->frame_ms_most = 1e3 * r->frame[steps - 1];
+    out->frame_ms = times_of(r->frame, steps);
+    out->work_ms = times_of(r->work, steps);
     out->plan_ms_mean = 1e3 * ff_crowd_time_spent(r->crowd).planning / steps;
     out->overlap = 100.0 * r->contact / out->agent_seconds;
     out->speed_to_goal = r->walked > 0.0 ? r->toward / r->walked : 0.0;
@@ -244,9 +252,10 @@ ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const 
     def.footsteps = trial->footsteps;
     r.walkers = ff_calloc(trial->agents, sizeof *r.walkers);
     r.frame = ff_calloc(steps, sizeof *r.frame);
+    r.work = ff_calloc(steps, sizeof *r.work);
     r.matrices = ff_calloc((size_t)trial->agents * ff_pack_joint_count(pack), sizeof *r.matrices);
     ff_status status = FF_OK;
-    if (!r.walkers || !r.frame || !r.matrices)
+    if (!r.walkers || !r.frame || !r.work || !r.matrices)
         status = ff_fail(error, FF_ERR_NO_MEMORY, "a trial of %u agents", trial->agents);
     if (status == FF_OK) status = ff_crowd_create(pack, &def, &r.crowd, error);
     if (status == FF_OK) status = add_walkers(&r, error);
@@ -259,6 +268,7 @@ ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const 
     ff_crowd_destroy(r.crowd);
     free(r.walkers);
     free(r.frame);
+    free(r.work);
     free(r.matrices);
     return status;
 }

@@ -25,10 +25,16 @@ typedef struct ff_walk_trial {
     uint32_t shot_count;
 } ff_walk_trial;
 
+typedef struct ff_walk_times {
+    double mean, p99, most; /* ms */
+} ff_walk_times;
+
 typedef struct ff_walk_measures {
     double agent_seconds;
-    double fps_mean, frame_ms_p99, frame_ms_most; /* of a step with the poses of everybody */
-    double plan_ms_mean;                          /* per step */
+    ff_walk_times frame_ms; /* of a step with the poses of everybody, by the clock on the wall */
+    ff_walk_times
+        work_ms; /* the same in time of the processor, all threads together: other programs do not count */
+    double plan_ms_mean;  /* per step */
     double overlap;       /* pair-seconds of contact of the five cylinders per 100 agent-seconds */
     double deepest;       /* m */
     double speed_to_goal; /* m/s, mean over those who are not there yet */
