@@ -154,10 +154,11 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
                    .goal = goal,
                    .options = *options,
                    .memory = scratch,
-                   .open_stance = FF_SEARCH_NONE,
                    .best = FF_SEARCH_NONE,
                    .part = FF_SEARCH_NONE,
                    .best_cost = INFINITY};
+    for (uint32_t i = 0; i < FF_SEARCH_STANCES; ++i)
+        s.stance_of[i] = FF_SEARCH_NONE;
     s.result.outcome = FF_PLAN_NONE;
     s.result.inflation = INFINITY;
     if (options->seconds > 0.0) clock_gettime(CLOCK_MONOTONIC, &s.begun);

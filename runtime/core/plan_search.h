@@ -41,6 +41,8 @@ typedef struct ff_search_place {
     uint32_t node, round;
 } ff_search_place;
 
+enum { FF_SEARCH_STANCES = 16 }; /* the queue goes back and forth between a few parents */
+
 struct ff_plan_scratch {
     uint32_t nodes_max;
     ff_search_node *nodes;
@@ -49,7 +51,7 @@ struct ff_plan_scratch {
     ff_search_place *places;
     uint32_t room, search; /* of nodes; number of the search */
     ff_sight sight;
-    ff_stance stance, step; /* of the node that is expanded; on the way of a stop */
+    ff_stance stance[FF_SEARCH_STANCES], step; /* of nodes whose children are tested; on the way of a stop */
 };
 
 typedef struct ff_search {
@@ -59,10 +61,10 @@ typedef struct ff_search {
     ff_plan_scratch *memory;
     ff_guide guide;
     uint32_t count, heap_count, later_count;
-    uint32_t open_stance;    /* node of memory->stance, or FF_SEARCH_NONE */
-    float inflation, latest; /* latest: s from the first knot that a node may end at */
-    float ahead;             /* s: time of enough, or INFINITY */
-    uint32_t best, part;     /* the plan so far ends here; else the nearest to the goal, safe */
+    uint32_t stance_of[FF_SEARCH_STANCES]; /* nodes of memory->stance, or FF_SEARCH_NONE */
+    float inflation, latest;               /* latest: s from the first knot that a node may end at */
+    float ahead;                           /* s: time of enough, or INFINITY */
+    uint32_t best, part;                   /* the plan so far ends here; else the nearest to the goal, safe */
     float best_cost;
     uint32_t first_best; /* nodes expanded when there was a plan */
     ff_plan_result result;

@@ -71,11 +71,12 @@ void ff_search_stand_at(const ff_search *s, const ff_search_node *n, ff_stance *
 
 static ff_stance *stance_of(ff_search *s, uint32_t index)
 {
-    if (s->open_stance != index) {
-        ff_search_stand_at(s, &s->memory->nodes[index], &s->memory->stance);
-        s->open_stance = index;
+    uint32_t place = index % FF_SEARCH_STANCES;
+    if (s->stance_of[place] != index) {
+        ff_search_stand_at(s, &s->memory->nodes[index], &s->memory->stance[place]);
+        s->stance_of[place] = index;
     }
-    return &s->memory->stance;
+    return &s->memory->stance[place];
 }
 
 uint32_t ff_search_add(ff_search *s, const ff_search_node *n)

@@ -156,8 +156,10 @@ typedef struct course {
     const ff_set_action *action;
     const float *anchor;
     float a, b, radius;            /* m: circle that holds all of it */
+    int32_t last;                  /* knot, not after its end */
     float jump;                    /* m, the furthest that the joint moves any collider */
-    uint32_t count;                /* knots; 0: not made yet */
+    uint32_t total, count;         /* knots; made so far */
+    ff_knot jumps;                 /* what the joint moves the colliders by at first */
     ff_knot knots[FF_SIGHT_KNOTS]; /* [0] is the stance's tail */
     float about[FF_SIGHT_KNOTS];   /* radii about the root, that hold all colliders */
 } course;
@@ -174,43 +176,44 @@ static void find_jump(const ff_sight *sight, const course *c, ff_knot *jump)
     }
 }
 
-static void make_course(const ff_sight *sight, course *c)
+/* The first knots of a course; those that are there already are kept. */
+static void make_course(const ff_sight *sight, course *c, uint32_t count)
 {
     const ff_stance *st = c->stance;
     const ff_set_action *b = c->action;
-    ff_knot jump;
-    find_jump(sight, c, &jump);
-    c->knots[0] = st->tail;
-    c->about[0] = ff_knot_radius(&st->tail);
-    int32_t last = (int32_t)((st->time + b->duration) / (float)FF_TRACK_STEP);
-    uint32_t n = 1;
-    for (int32_t k = st->knot + 1; k <= last && n < FF_SIGHT_KNOTS; ++k, ++n) {
-        float t = (float)k * (float)FF_TRACK_STEP - st->time, left = ff_set_blend(b, t);
-        ff_knot *to = &c->knots[n];
+    if (c->count == 0) {
+        find_jump(sight, c, &c->jumps);
+        c->knots[0] = st->tail;
+        c->about[0] = ff_knot_radius(&st->tail);
+        c->count = 1;
+    }
+    for (; c->count < count; ++c->count) {
+        float t = (float)(st->knot + (int32_t)c->count) * (float)FF_TRACK_STEP - st->time,
+              left = ff_set_blend(b, t);
+        ff_knot *to = &c->knots[c->count];
         place(sight->set, b, c->anchor, st->cosine, st->sine, t, to);
         if (left > 0.0f)
             for (int i = 0; i < FF_TRACK_LANES; ++i) {
-                to->a[i] += left * jump.a[i];
-                to->b[i] += left * jump.b[i];
-                to->y[i] += left * jump.y[i];
+                to->a[i] += left * c->jumps.a[i];
+                to->b[i] += left * c->jumps.b[i];
+                to->y[i] += left * c->jumps.y[i];
             }
         /* Of the samples on both sides; the joint may move the root one way and a hand the other. */
-        c->about[n] = ff_set_about(sight->set, b, t) + 2.0f * left * c->jump;
+        c->about[c->count] = ff_set_about(sight->set, b, t) + 2.0f * left * c->jump;
     }
-    c->count = n;
 }
 
 static bool meets_track(const ff_sight *sight, course *c, uint32_t who)
 {
     const ff_stance *st = c->stance;
     uint32_t first = (uint32_t)st->knot / FF_SIGHT_CHUNK;
-    uint32_t last = (uint32_t)((st->time + c->action->duration) / (float)FF_TRACK_STEP) / FF_SIGHT_CHUNK;
+    uint32_t last = (uint32_t)c->last / FF_SIGHT_CHUNK;
     bool near = false;
     for (uint32_t i = first; i <= last && !near; ++i)
         near = ff_sight_room_near(sight, i, who, c->a, c->b, c->radius);
     if (!near) return false;
-    if (c->count == 0) make_course(sight, c);
-    for (uint32_t k = 0; k + 1 < c->count; ++k) {
+    for (uint32_t k = 0; k + 1 < c->total; ++k) {
+        if (k + 1 >= c->count) make_course(sight, c, k + 2);
         float radius = c->about[k] > c->about[k + 1] ? c->about[k] : c->about[k + 1];
         if (meets(&sight->seen[who], st->knot + (int32_t)k, &c->knots[k], &c->knots[k + 1], radius,
                   sight->margin, &sight->limits))
@@ -225,7 +228,7 @@ static bool meets_things(const ff_sight *sight, course *c)
     const ff_stance *st = c->stance;
     double margin = (double)sight->margin;
     if (st->mover_count == 0 && !st->solids) return false;
-    if (c->count == 0) make_course(sight, c);
+    make_course(sight, c, c->total);
     ff_vec2 centre = ff_add2(sight->origin, ff_v2((double)c->a, (double)c->b));
     if (st->solids &&
         ff_solids_hit(sight->solids, centre, (double)c->radius, sight->origin, c->knots, c->count, margin))
@@ -245,7 +248,7 @@ static float proximity_cost(const ff_sight *sight, course *c)
 {
     const ff_stance *st = c->stance;
     float sum = 0.0f, within = sight->cost_within + 2.0f * ff_collider_radius[FF_COLLIDER_ROOT];
-    if (c->count == 0 && st->near_count > 0) make_course(sight, c);
+    if (st->near_count > 0) make_course(sight, c, c->total);
     for (uint32_t i = 0; i < st->near_count; ++i) {
         const ff_sight_track *seen = &sight->seen[st->near[i]];
         for (uint32_t k = 1; k < c->count; ++k) {
@@ -259,6 +262,13 @@ static float proximity_cost(const ff_sight *sight, course *c)
     return sum;
 }
 
+/* From the stance's tail to a last knot. */
+static uint32_t knots_to(const ff_stance *st, int32_t last)
+{
+    uint32_t more = last > st->knot ? (uint32_t)(last - st->knot) : 0;
+    return 1 + (more < FF_SIGHT_KNOTS - 1 ? more : FF_SIGHT_KNOTS - 1);
+}
+
 bool ff_stance_free(const ff_sight *sight, ff_stance *st, const ff_set_next *next, float *cost)
 {
     if (cost) *cost = 0.0f;
@@ -269,6 +279,8 @@ bool ff_stance_free(const ff_sight *sight, ff_stance *st, const ff_set_next *nex
     c.action = b;
     c.anchor = next->other ? st->other : st->at;
     c.jump = next->jump;
+    c.last = (int32_t)((st->time + b->duration) / (float)FF_TRACK_STEP);
+    c.total = knots_to(st, c.last);
     c.count = 0;
     c.a = c.anchor[0] + st->cosine * b->circle[0] - st->sine * b->circle[1];
     c.b = c.anchor[1] + st->sine * b->circle[0] + st->cosine * b->circle[1];
