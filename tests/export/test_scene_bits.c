@@ -1,7 +1,8 @@
 /* Every scene that comes with the project gives the same bits on 1, 2 and 8 threads, and when it is saved, loaded and
  * continued. FF_SCENE_STEPS says for how many steps (make soak: 10,000). */
+#define _GNU_SOURCE
 #include "runtime/export/scene_crowd.h"
-#include "tests/check.h"
+#include "tests/built_in_pack.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -14,11 +15,9 @@ static uint64_t steps = STEPS_SHORT;
 static int open_pack(void **state)
 {
     (void)state;
-    char path[1024];
     ff_error error;
-    const char *build = getenv("FF_BUILD"), *wanted = getenv("FF_SCENE_STEPS");
-    snprintf(path, sizeof path, "%s/builtin.ffpack", build ? build : "build");
-    FF_ASSERT_OK(ff_pack_open(path, &pack, &error), error);
+    const char *wanted = getenv("FF_SCENE_STEPS");
+    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
     if (wanted) steps = strtoull(wanted, NULL, 10);
     return steps > 8 ? 0 : -1;
 }

@@ -1,6 +1,7 @@
 /* What happens in the scenes with behaviour that come with the project, on the built-in pack: what their files promise. */
+#define _GNU_SOURCE
 #include "runtime/export/scene_crowd.h"
-#include "tests/check.h"
+#include "tests/built_in_pack.h"
 
 #include <stdio.h>
 
@@ -11,11 +12,8 @@ static ff_pack *pack;
 static int open_pack(void **state)
 {
     (void)state;
-    char path[1024];
     ff_error error;
-    const char *build = getenv("FF_BUILD");
-    snprintf(path, sizeof path, "%s/builtin.ffpack", build ? build : "build");
-    FF_ASSERT_OK(ff_pack_open(path, &pack, &error), error);
+    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
     return 0;
 }
 
@@ -158,7 +156,9 @@ static void the_trade_show_keeps_to_its_capacities_and_times_and_loses_nobody(vo
             }
             if (b.state != look || b.seconds < 3.8) continue;
             ff_vec2 way = ff_sub2(s.def.goals[b.goal].look_at, a.position);
-            worst = ff_max(worst, fabs(ff_wrap(ff_atan2(way.b, way.a) - a.heading)));
+            double off = fabs(ff_wrap(ff_atan2(way.b, way.a) - a.heading));
+            FF_ASSERT_BELOW(off, 0.3); /* who steps aside turns meanwhile */
+            if (ff_length2(a.velocity) < 0.05) worst = ff_max(worst, off);
             FF_ASSERT_BELOW(ff_length2(a.velocity), 0.65); /* stands, or steps aside */
         }
         for (uint32_t g = 0; g < s.def.goal_count; ++g) {
@@ -173,7 +173,7 @@ static void the_trade_show_keeps_to_its_capacities_and_times_and_loses_nobody(vo
     }
     assert_true(ff_crowd_count(s.crowd).left >= 5 && looks >= 30);
     assert_int_equal(most, 3); /* booths were full */
-    FF_ASSERT_BELOW(worst, 0.15);
+    FF_ASSERT_BELOW(worst, 0.08);
     end(&s);
 }
 

@@ -1,8 +1,8 @@
 /* Whole builds: the same bytes for any number of threads, order of inputs and folder; bad clips named and left out; a
  * pack that the runtime opens and that says what the clips hold. */
 #define _GNU_SOURCE
+#include "tests/built_in_pack.h"
 #include "tests/preprocess/build_folder.h"
-#include "tests/preprocess/built_in_pack.h"
 #include "tests/preprocess/pack_bars.h"
 
 /* ------------------------------------------------------------------------------------------------------------ tests */

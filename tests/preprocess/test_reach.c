@@ -2,7 +2,7 @@
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
 #include "runtime/core/plan_set.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 #include <stdio.h>
 

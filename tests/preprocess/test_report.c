@@ -4,7 +4,7 @@
 
 #include "preprocess/report_parts.h"
 #include "runtime/core/base/file.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 #include <stdio.h>
 #include <unistd.h>
