@@ -29,6 +29,10 @@ static ff_vec3 swing_in_reach(double swing, ff_vec3 hip, ff_vec3 ankle, double l
     return ff_madd3(hip, away, ff_leg_swing_reach(distance, leg_length, share) / distance);
 }
 
+/* rad, between the way from the ball to the ankle and that to the hip: the last of it would be raised within a frame, for
+ * what little reach is left in it (2 % of the foot). */
+#define LEAST_OPEN 0.2
+
 /* A foot out of reach lifts its heel about the ball before anything slides: by the least angle that brings the ankle within
  * reach of the hip, or, where none does, as near as it gets. Seen along the axis through the ball, the ankle goes round a
  * circle, and the cosine law gives the angle between it and the hip. */
@@ -46,7 +50,9 @@ static ff_quat heel_in_reach(const ff_body_frame *body, ff_foothold ball, int fo
     double cosine =
         (near2 + far2 + aside * aside - reach * reach) / (2.0 * sqrt(ff_max(near2 * far2, 1e-12)));
     double between = ff_atan2(hip_ahead, to_hip.y) - ff_atan2(ankle_ahead, ankle.y);
-    double raise = ff_clamp(ff_wrap(between) - ff_acos(cosine), 0.0, most);
+    double open = ff_acos(cosine);
+    if (open < 2.0 * LEAST_OPEN) open = LEAST_OPEN + open * open / (4.0 * LEAST_OPEN);
+    double raise = ff_clamp(ff_wrap(between) - open, 0.0, most);
     return ff_quat_mul(ff_quat_axis(lateral, raise), rotation);
 }
 
