@@ -10,7 +10,7 @@
 #define IN_REACH 0.12     /* m/s, by which rates may be outside what the new way can do */
 #define LEAST_FLIGHT 0.1  /* s to the landing: a foot that is about to land does so first */
 #define LEAST_STANCE 0.08 /* s to the lift: no sooner is a foot lifted in the new way */
-#define MOST_DELAY 1.5    /* of the time to the landing: a foot nearly down does not wait over the floor */
+#define MOST_DELAY 1.5    /* of the time to the landing: no foot waits over the floor or is hurried down */
 #define SHORT_SWING 1.0   /* u: a foot that has landed is not lifted again for less */
 #define OFF_BEFORE 0.8    /* of the time to the landing: steps may quicken yet */
 #define URGENT_WAIT 0.3   /* s: who must switch waits no longer for a pair */
@@ -20,7 +20,7 @@
 /* Of a step: the part of the stance on one foot in which a walk may become a run, and back; and the shares of the stance at
  * which a walk's other foot leaves and lands, by which one is laid on the other. */
 #define ONE_FOOT_FROM 0.1
-#define ONE_FOOT_TO 0.8
+#define ONE_FOOT_TO 0.5
 #define OTHER_LEAVES 0.2
 #define OTHER_LANDS 0.8
 
@@ -162,7 +162,7 @@ static bool about_to_lift(const ff_blend_space *space, const ff_gait *gait, doub
 }
 
 /* Put the clock where the new way has this phase; feet in the air keep their share of the swing. False: the new way would
- * have a foot standing that is in the air, one is about to land or to lift, or would land much later. */
+ * have a foot standing that is in the air, one is about to land or to lift, or would land much later or sooner. */
 static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend *next, double phase,
                       double until[2])
 {
@@ -183,6 +183,7 @@ static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend
         double time = ff_phase_duration(space, next, phase, phase + left) / gait->pace;
         if (left >= FF_GAIT_KEYS - length || time < LEAST_FLIGHT) return false;
         if (before[f] < LEAST_FLIGHT || time > MOST_DELAY * before[f]) return false;
+        if (next->way != FF_RUNNING && before[f] > MOST_DELAY * time) return false;
         double done = ff_min(foot->progress, 0.95);
         foot->phase_left = left;
         foot->elapsed = done * time / (1.0 - done);
@@ -191,27 +192,30 @@ static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend
     return true;
 }
 
-/* Becomes the new way in place; the poses of both, now and a little later, tell the offset. */
-static void take_over(const ff_blend_space *space, ff_gait *gait, const ff_gait *next,
+/* Becomes the new way in place; the poses of both, now and a little later, tell the offset. False: either begins or ends
+ * stepping just now, which makes the clip's poses jump, and the speeds with them. */
+static bool take_over(const ff_blend_space *space, ff_gait *gait, const ff_gait *next,
                       const ff_gait_root *root, const double until[2])
 {
     ff_gait_root later = root_later(root, LATER);
     ff_pose_targets old_now, old_later, new_now, new_later;
-    ff_gait old = *gait, ahead;
+    ff_gait old = *gait, taken = *next, ahead;
     ff_gait_targets(space, &old, root, &old_now);
     ff_gait_advance(space, &old, &later, LATER);
     ff_gait_targets(space, &old, &later, &old_later);
-    *gait = *next;
-    memset(&gait->offset, 0, sizeof gait->offset);
-    ff_gait_advance(space, gait, root, 0.0);
-    ff_gait_targets(space, gait, root, &new_now);
-    ahead = *gait;
+    memset(&taken.offset, 0, sizeof taken.offset);
+    ff_gait_advance(space, &taken, root, 0.0);
+    ff_gait_targets(space, &taken, root, &new_now);
+    ahead = taken;
     ff_gait_advance(space, &ahead, &later, LATER);
     ff_gait_targets(space, &ahead, &later, &new_later);
+    if (old.mode != gait->mode || ahead.mode != next->mode) return false;
     ff_pose_switch change = {&old_now, &old_later, &new_now, &new_later, LATER, {until[0], until[1]}};
+    *gait = taken;
     ff_pose_offset_begin(&gait->offset, &change);
     if ((old.blend.way == FF_RUNNING) != (gait->blend.way == FF_RUNNING)) gait->offset.time[0] = PACE_TIME;
     ff_gait_advance(space, gait, root, 0.0); /* feet with their offset */
+    return true;
 }
 
 void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gait_root *root)
@@ -226,7 +230,7 @@ void ff_gait_try_switch(const ff_blend_space *space, ff_gait *gait, const ff_gai
     } else {
         if (!is_the_moment(space, gait, &blend, &phase)) return;
         if (!set_clock(space, &next, &blend, phase, until)) return;
-        take_over(space, gait, &next, root, until);
+        if (!take_over(space, gait, &next, root, until)) return;
         ++gait->switches;
         gait->urgent_switches += gait->urgent;
     }
