@@ -66,9 +66,9 @@ static ff_line avoid(const ff_nav_view *view, const ff_neighbour *neighbour, ff_
         if (ff_dot2(then, then) > reach * reach) break;
         then = now;
     }
-    ff_line line =
-        ff_orca_disc(then, ff_sub2(me->reference, other->reference), me->reference, reach, FF_HORIZON - ahead,
-                     other->firm ? 1.0 : SHARE, ff_max(view->world->step, OVERLAP_TIME), how.lean, apart(me, other));
+    ff_line line = ff_orca_disc(then, ff_sub2(me->reference, other->reference), me->reference, reach,
+                                FF_HORIZON - ahead, other->firm ? 1.0 : SHARE,
+                                ff_max(view->world->step, OVERLAP_TIME), how.lean, apart(me, other));
     if (!how.weighted) return line;
     line.weight = ff_clamp(FF_HORIZON / ff_max(neighbour->time, OVERLAP_TIME), 1.0, WEIGHT_MAX);
     if (!me->standing && ff_dot2(now, me->velocity) < 0.0) line.weight *= BEHIND;

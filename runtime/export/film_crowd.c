@@ -1,5 +1,9 @@
 #include "runtime/export/film_crowd.h"
 
+#include "runtime/export/obstacle_outline.h"
+
+#include <string.h>
+
 #define ELEVATION (32.0 * FF_DEG)
 #define VIEW_ANGLE (30.0 * FF_DEG)
 #define WALL_HEIGHT 0.4    /* m: one sees feet behind it */
@@ -148,6 +152,38 @@ static void draw_walls(const ff_scene *scene, const ff_camera *camera, ff_raster
     }
 }
 
+/* Sides and top of each obstacle, where it is at the time. */
+static void draw_obstacles(const ff_scene *scene, double time, const ff_camera *camera, ff_raster *raster)
+{
+    enum { N = FF_OBSTACLE_CORNERS };
+    static const ff_colour colour = {168, 140, 108};
+    const ff_obstacle_def *obstacles = scene->obstacles.data;
+    for (size_t i = 0; i < scene->obstacles.count; ++i) {
+        ff_vec2 outline[N];
+        ff_obstacle_outline(&obstacles[i], time, outline);
+        ff_shaded_vertex vertices[5 * N];
+        uint32_t faces[3 * N - 2][3], face = 0;
+        double low = ff_max(obstacles[i].low, 0.0), high = obstacles[i].high;
+        for (uint32_t c = 0; c < N; ++c) {
+            ff_vec2 p = outline[c], q = outline[(c + 1) % N];
+            ff_vec3 out = ff_ground(ff_scale2(ff_left2(ff_unit2(ff_sub2(q, p))), -1.0), 0.0);
+            ff_shaded_vertex *v = &vertices[4 * c];
+            v[0] = (ff_shaded_vertex){ff_ground(p, low), out, colour};
+            v[1] = (ff_shaded_vertex){ff_ground(q, low), out, colour};
+            v[2] = (ff_shaded_vertex){ff_ground(q, high), out, colour};
+            v[3] = (ff_shaded_vertex){ff_ground(p, high), out, colour};
+            vertices[4 * N + c] = (ff_shaded_vertex){ff_ground(p, high), ff_v3(0.0, 1.0, 0.0), colour};
+            const uint32_t a = 4 * c;
+            const uint32_t sides[2][3] = {{a, a + 1, a + 2}, {a, a + 2, a + 3}};
+            memcpy(faces[face], sides, sizeof sides);
+            face += 2;
+        }
+        for (uint32_t c = 1; c + 1 < N; ++c, ++face)
+            memcpy(faces[face], (const uint32_t[3]){4 * N, 4 * N + c, 4 * N + c + 1}, sizeof faces[face]);
+        ff_raster_mesh(raster, camera, vertices, (const uint32_t(*)[3])faces, face);
+    }
+}
+
 void ff_film_crowd_draw(ff_stage *stage, const ff_scene *scene, const ff_recording *recording, uint32_t pose,
                         const ff_camera *camera, ff_raster *raster)
 {
@@ -170,4 +206,5 @@ void ff_film_crowd_draw(ff_stage *stage, const ff_scene *scene, const ff_recordi
         if (pass == 0) ff_raster_darken(raster);
     }
     draw_walls(scene, camera, raster);
+    draw_obstacles(scene, recording->start + step * recording->step, camera, raster);
 }

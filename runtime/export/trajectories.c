@@ -2,6 +2,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/export/look.h"
+#include "runtime/export/obstacle_outline.h"
 #include "runtime/export/picture.h"
 #include "runtime/export/watch.h"
 
@@ -84,6 +85,25 @@ static void draw_goals(ff_picture *picture, const map *m, const ff_scene *scene)
     }
 }
 
+/* Obstacles where they are at the start, and the ways of those that move. */
+static void draw_obstacles(ff_picture *picture, const map *m, const ff_scene *scene)
+{
+    static const ff_colour fixed = {168, 140, 108}, way = {206, 188, 164};
+    const ff_obstacle_def *obstacles = scene->obstacles.data;
+    for (size_t i = 0; i < scene->obstacles.count; ++i) {
+        const ff_obstacle_def *obstacle = &obstacles[i];
+        for (uint32_t k = 1; k < obstacle->path_count; ++k)
+            ff_picture_line(picture, to_pixel(m, ff_add2(obstacle->position, obstacle->path[k - 1].at)),
+                            to_pixel(m, ff_add2(obstacle->position, obstacle->path[k].at)), 3.0, way);
+        ff_vec2 outline[FF_OBSTACLE_CORNERS];
+        ff_pixel corners[FF_OBSTACLE_CORNERS];
+        ff_obstacle_outline(obstacle, 0.0, outline);
+        for (int c = 0; c < FF_OBSTACLE_CORNERS; ++c)
+            corners[c] = to_pixel(m, outline[c]);
+        ff_picture_polygon(picture, corners, FF_OBSTACLE_CORNERS, fixed);
+    }
+}
+
 static void draw_scale_bar(ff_picture *picture, const map *m, int width, int height)
 {
     double metres = 1.0; /* 1, 2, 5, 10 ...: the first that is long enough to see */
@@ -156,6 +176,7 @@ ff_status ff_trajectories_write(const char *path, const ff_scene *scene, const f
     if (status == FF_OK) {
         draw_goals(picture, &m, scene);
         draw_grid(picture, &m);
+        draw_obstacles(picture, &m, scene);
         for (uint32_t i = 0; i < ff_scene_wall_count(scene); ++i)
             ff_picture_line(picture, to_pixel(&m, ff_scene_walls(scene)[i].p),
                             to_pixel(&m, ff_scene_walls(scene)[i].q), 5.0, ink);
