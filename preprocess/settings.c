@@ -179,7 +179,7 @@ const ff_setting ff_setting_table[] = {
     NUMBER(cut., energy, standing, FF_STAGE_CUT, "J/kg per s", 2.23, 0.0, 100.0, "of being on one's feet"),
     NUMBER(cut., energy, moving, FF_STAGE_CUT, "J s/(kg m2)", 1.26, 0.0, 100.0, "of the square of the speed"),
     /* the body that planners avoid, at times inside an action */
-    NUMBER(cut., colliders, rate, FF_STAGE_CUT, "Hz", 10.0, 2.0, 10.0, "how often it is sampled"),
+    NUMBER(cut., colliders, rate, FF_STAGE_CUT, "Hz", 20.0, 2.0, 20.0, "how often it is sampled"),
     NUMBER(cut., colliders, head, FF_STAGE_CUT, "m", 0.12, 0.01, 0.5,
            "radius of the head; with a skin its own"),
     NUMBER(cut., colliders, hand, FF_STAGE_CUT, "m", 0.08, 0.01, 0.5,

@@ -92,8 +92,8 @@ double ff_action_blend(const ff_action_set *set, uint32_t action);
 
 /* --------------------------------------------------------------------------------------------------- tracks */
 
-#define FF_TRACK_STEP 0.1 /* s: knot k is at k * FF_TRACK_STEP */
-enum { FF_TRACK_KNOTS_MAX = 128, FF_TRACK_LANES = FF_COLLIDER_COUNT, FF_TRACK_CHUNK = 8 };
+#define FF_TRACK_STEP (1.0 / 15.0) /* s: knot k is at k * FF_TRACK_STEP */
+enum { FF_TRACK_KNOTS_MAX = 160, FF_TRACK_LANES = FF_COLLIDER_COUNT, FF_TRACK_CHUNK = 8 };
 
 /* Horizontal radii of the colliders, m (algorithms A.9; root: footstep study, section 2). */
 extern const float ff_collider_radius[FF_COLLIDER_COUNT];

@@ -7,7 +7,7 @@
 #include "runtime/core/plan_set.h"
 #include "runtime/core/plan_solids.h"
 
-enum { FF_SIGHT_MAX = 128, FF_SIGHT_MOVING_MAX = 64, FF_SIGHT_KNOTS = 32 };
+enum { FF_SIGHT_MAX = 128, FF_SIGHT_MOVING_MAX = 64, FF_SIGHT_KNOTS = 48 };
 enum { FF_SIGHT_CHUNK = 4, FF_SIGHT_CHUNKS = FF_TRACK_KNOTS_MAX / FF_SIGHT_CHUNK }; /* knots */
 
 /* Room that all those seen take up between knots [4 c, 4 c + 4]. */

@@ -42,6 +42,27 @@ ff_cylinders ff_cylinders_of(const ff_vec3 *joints)
     return out;
 }
 
+ff_cylinders ff_cylinders_of_colliders(const ff_pack *pack, const ff_vec3 *joints, const ff_quat *rotations)
+{
+    static const int joint[FF_CYLINDER_COUNT] = {FF_JOINT_HEAD, FF_JOINT_WRIST_L, FF_JOINT_WRIST_R,
+                                                 FF_JOINT_ANKLE_L, FF_JOINT_ANKLE_R};
+    static const uint32_t end[FF_CYLINDER_COUNT] = {FF_POINT_HEAD_TOP, FF_POINT_HAND_L, FF_POINT_HAND_R,
+                                                    FF_POINT_TOE_L, FF_POINT_TOE_R};
+    ff_cylinders out = {.present = true};
+    for (int i = 0; i < FF_CYLINDER_COUNT; ++i) {
+        ff_vec3 tip = joints[joint[i]];
+        for (uint32_t p = 0; p < pack->point_count; ++p) {
+            const ff_pack_point *point = &pack->points[p];
+            if (point->kind != end[i]) continue;
+            ff_vec3 offset =
+                ff_v3((double)point->offset[0], (double)point->offset[1], (double)point->offset[2]);
+            tip = ff_add3(joints[point->joint], ff_quat_rotate(rotations[point->joint], offset));
+        }
+        out.at[i] = ff_lerp3(joints[joint[i]], tip, 0.5);
+    }
+    return out;
+}
+
 double ff_cylinders_overlap(const ff_cylinders *p, const ff_cylinders *q)
 {
     double deepest = 0.0;

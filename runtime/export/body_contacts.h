@@ -3,6 +3,7 @@
 #ifndef FF_BODY_CONTACTS_H
 #define FF_BODY_CONTACTS_H
 
+#include "runtime/core/pack.h"
 #include "runtime/export/figure.h"
 
 #include <stdbool.h>
@@ -34,6 +35,10 @@ void ff_contacts_free(ff_contacts *contacts);
 
 /* From the places of all joints. */
 ff_cylinders ff_cylinders_of(const ff_vec3 *joints);
+
+/* About the middles of head, hands and feet, where a pack's actions have their colliders: what planners keep apart. Places and
+ * rotations of all joints, in the world. */
+ff_cylinders ff_cylinders_of_colliders(const ff_pack *pack, const ff_vec3 *joints, const ff_quat *rotations);
 
 /* How deep the two bodies are in each other, 0 = apart (m, on the ground). */
 double ff_cylinders_overlap(const ff_cylinders *p, const ff_cylinders *q);

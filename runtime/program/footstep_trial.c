@@ -26,6 +26,7 @@ typedef struct walker {
 
 typedef struct run {
     const ff_walk_trial *trial;
+    const ff_pack *pack;
     const ff_figure *figure;
     ff_crowd *crowd;
     walker *walkers;
@@ -139,11 +140,11 @@ static void look_at(run *r, walker *w, double time)
 {
     ff_agent_state state;
     ff_vec3 hips, joints[FF_FIGURE_MAX_JOINTS];
-    ff_quat rotations[FF_FIGURE_MAX_JOINTS];
+    ff_quat rotations[FF_FIGURE_MAX_JOINTS], turned[FF_FIGURE_MAX_JOINTS];
     ff_crowd_agent_state(r->crowd, w->agent, &state, NULL);
     ff_crowd_agent_pose(r->crowd, w->agent, &hips, rotations, NULL);
-    ff_figure_place(r->figure, hips, rotations, joints, NULL);
-    w->body = ff_cylinders_of(joints);
+    ff_figure_place(r->figure, hips, rotations, joints, turned);
+    w->body = ff_cylinders_of_colliders(r->pack, joints, turned);
     w->position = state.position;
     r->out.agent_seconds += r->trial->step;
     if (state.reached && w->arrived < 0.0) w->arrived = time;
@@ -241,7 +242,7 @@ ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const 
                             ff_walk_measures *out, ff_error *error)
 {
     uint32_t steps = (uint32_t)(trial->seconds / trial->step + 0.5);
-    run r = {.trial = trial, .figure = figure, .random = {trial->seed, 0x666f6f74u, 0}};
+    run r = {.trial = trial, .pack = pack, .figure = figure, .random = {trial->seed, 0x666f6f74u, 0}};
     r.side = sqrt(trial->agents / ff_max(trial->density, 1e-3));
     ff_crowd_def def = ff_crowd_def_default();
     def.max_agents = trial->agents;
