@@ -5,8 +5,8 @@
  * the other foot landed, from where the next one begins. Every plan ends in standing, for ever: who has a plan is never
  * without one, and everybody else may rely on where its owner will be.
  *
- * Where a plan's owner is at a time is its track: the six colliders of the pack, a straight line between moments a tenth
- * of a second apart, the same moments for everybody. Searches, checks between plans and the check when a plan is put in
+ * Where a plan's owner is at a time is its track: the six colliders of the pack, a straight line between moments a
+ * fifteenth of a second apart, the same moments for everybody. Searches, checks between plans and the check when a plan is put in
  * force all use this one track, so plans that were found free of each other are.
  *
  * Everything is a pure function of its arguments; nothing allocates but the functions called create. Lengths in m,

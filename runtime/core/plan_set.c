@@ -10,8 +10,7 @@
 
 static const float RUN_FACTOR = 1.3f, PLATFORM_COST = 150.0f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
 static const double CROSS = -20.0 * FF_DEG;
-1.45f;                           /* m/s: who is slower loses time; as fast as adults walk who are at ease */
-static const float BLEND = 0.3f; /* s, algorithms B.9 */
+static const float BLEND = 0.3f;                    /* s, algorithms B.9 */
 static const float FLAT = 0.05f, LEVEL = 0.03f;     /* m: heights and rises that pass for level ground */
 static const float SHORTEST = 0.2f, LONGEST = 3.0f; /* s */
 

@@ -391,7 +391,7 @@ static void who_is_surrounded_keeps_the_old_plan(void **state)
 static void an_agent_needs_at_most_16_kib(void **state)
 {
     (void)state;
-    assert_true(sizeof(ff_plan) + sizeof(ff_track) <= 12 * 1024);
+    assert_true(sizeof(ff_plan) + sizeof(ff_track) <= 14 * 1024);
 }
 
 static void waypoints_that_are_seen_past_are_skipped(void **state)

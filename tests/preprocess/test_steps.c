@@ -217,14 +217,14 @@ static void a_mirrored_action_is_the_action_of_the_mirrored_clip(void **state)
     cut_free(&m);
 }
 
-static void colliders_follow_the_body_at_10_hz(void **state)
+static void colliders_follow_the_body_at_20_hz(void **state)
 {
     (void)state;
     cut c = cut_generated("walk-normal", false, -1);
     for (int i = 0; i < c.actions.count; ++i) {
         const ff_action *a = &c.actions.items[i];
         uint32_t n = a->record.collider_samples;
-        assert_int_equal(n, (int)ceil(a->record.duration * 10.0 - 1e-4) + 1);
+        assert_int_equal(n, (int)ceil(a->record.duration * 20.0 - 1e-4) + 1);
         for (uint32_t s = 0; s < n; ++s) {
             const ff_pack_collider *at = a->colliders[s], *root = &at[FF_COLLIDER_ROOT];
             assert_true(at[FF_COLLIDER_HEAD].y > at[FF_COLLIDER_HAND_L].y);
@@ -338,7 +338,7 @@ int main(void)
         cmocka_unit_test(signs_of_turns_and_side_steps),
         cmocka_unit_test(mirroring_twice_is_nothing),
         cmocka_unit_test(a_mirrored_action_is_the_action_of_the_mirrored_clip),
-        cmocka_unit_test(colliders_follow_the_body_at_10_hz),
+        cmocka_unit_test(colliders_follow_the_body_at_20_hz),
         cmocka_unit_test(half_of_the_walking_steps_are_long),
         cmocka_unit_test(one_who_stands_gives_half_a_second_of_idling),
         cmocka_unit_test(who_sits_still_does_not_stand),
