@@ -6,7 +6,7 @@
 #include "runtime/core/plan_field.h"
 #include "runtime/core/plan_set.h"
 #include "runtime/core/plan_solids.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 typedef struct plan_world {
     ff_pack *pack;

@@ -4,7 +4,7 @@
 
 #include "runtime/core/base/random.h"
 #include "runtime/core/play.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 typedef struct play_world {
     ff_pack *pack;

@@ -1,7 +1,7 @@
 /* People of different sizes: drawn from the seed, standing on the ground, walking in proportion; all ways to draw them agree. */
 #define _GNU_SOURCE
 #include "runtime/core/crowd_state.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 static ff_pack *pack;
 

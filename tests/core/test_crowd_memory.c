@@ -1,9 +1,9 @@
 /* A step takes no memory, nor does asking for poses. Counts calls of the C library's allocators (glibc's inner names let
  * a program put its own in front); under the sanitizers, which do the same, there is nothing to count. */
 #define _GNU_SOURCE
+#include "tests/built_in_pack.h"
 #include "tests/core/crowd_trial.h"
 #include "tests/core/walker_pack.h"
-#include "tests/preprocess/built_in_pack.h"
 
 #include <stdatomic.h>
 

@@ -3,7 +3,7 @@
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
 #include "runtime/core/crowd_state.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 #define STEP (1.0 / 30.0)
 #define AGENTS 16

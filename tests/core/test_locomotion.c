@@ -2,8 +2,8 @@
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
 #include "runtime/core/synth_state.h"
+#include "tests/built_in_pack.h"
 #include "tests/core/walker_pack.h"
-#include "tests/preprocess/built_in_pack.h"
 
 #define HZ 60
 #define DT (1.0 / HZ)

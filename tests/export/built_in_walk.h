@@ -4,7 +4,7 @@
 
 #include "runtime/core/synth_state.h"
 #include "runtime/export/gait_meter.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 typedef struct built_in {
     ff_pack *pack;

@@ -3,7 +3,7 @@
 #include "runtime/core/base/random.h"
 #include "runtime/core/pack.h"
 #include "runtime/export/naturalness.h"
-#include "tests/preprocess/built_in_pack.h"
+#include "tests/built_in_pack.h"
 
 static ff_pack *pack;
 static ff_figure figure;
