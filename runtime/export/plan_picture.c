@@ -5,6 +5,7 @@
 #include "runtime/export/picture.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define PANEL 760.0 /* pixels, of the longer side of the map */
 #define MARGIN 36.0
@@ -30,11 +31,8 @@ static ff_colour colour_of(uint32_t agent)
 static bool add(ff_array *array, const void *item, size_t size)
 {
     void *at = ff_array_grow(array, 1, size);
-    if (!at) return false;
-    const unsigned char *from = item;
-    for (size_t i = 0; i < size; ++i)
-        ((unsigned char *)at)[i] = from[i];
-    return true;
+    if (at) memcpy(at, item, size);
+    return at != NULL;
 }
 
 /* The last print of this foot is where it stands already. */
