@@ -410,8 +410,7 @@ typedef struct ff_footsteps_def {
                         plain distance as heuristic; see runtime/README.md */
     uint32_t nodes; /* expanded per plan, 1 to 20000; default 300 */
     double seconds; /* wall clock per plan, on top; 0 (default): none, so that results do not depend on it */
-    uint32_t
-        plans; /* made per step, at most; 0 (default): 0.9 per second and agent of max_agents, at least 2 */
+    uint32_t plans; /* made per step, at most; 0 (default): 0.8 per second and agent of max_agents, and one */
     uint32_t actions;        /* of the pack, at most; 0 (default): 200 */
     double expiry;           /* s, after which a plan is made anew; default 2 */
     uint32_t expiry_actions; /* or after so many actions of it; default 3 */

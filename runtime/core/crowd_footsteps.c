@@ -9,9 +9,8 @@
 
 /* A second and agent: who crosses makes 0.65, where it is dense in 75 nodes; what is made at once makes a long frame
  * (study 4.7). */
-#define PLANS_PER_SECOND 0.9
-#define NODES_PER_SECOND 100.0
-#define FEWEST_PLANS 2
+#define PLANS_PER_SECOND 0.8
+#define NODES_PER_SECOND 90.0
 
 /* ------------------------------------------------------------------------------------------------- memory */
 
@@ -23,8 +22,7 @@ bool ff_footsteps_wanted(const ff_crowd_def *def)
 static uint32_t most_jobs(const ff_crowd_def *def)
 {
     if (def->footsteps.plans > 0) return def->footsteps.plans;
-    double jobs = ceil(PLANS_PER_SECOND * def->step * def->max_agents);
-    return jobs > FEWEST_PLANS ? (uint32_t)jobs : FEWEST_PLANS;
+    return (uint32_t)ceil(PLANS_PER_SECOND * def->step * def->max_agents) + 1;
 }
 
 static ff_plan_options options_of(const ff_footsteps_def *def)
