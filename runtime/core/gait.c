@@ -10,7 +10,7 @@
     0.10                  /* s: the blend follows the root's rates with this lag, the feet take up the rest */
 #define HARDLY_MOVES 0.25 /* m/s, turning counted as in the blend space */
 #define STAND_TIME 0.35   /* s from the walking to the standing pose and back */
-#define SETTLED 0.6       /* of the way to the standing pose, from where on a step may begin */
+#define SETTLED 0.8       /* of the way to the standing pose, from where on a step may begin */
 #define START_SPEED 0.12  /* m/s and rad/s above which a standing body begins to step ... */
 #define START_TURN 0.35
 #define STOP_SPEED 0.08 /* ... and below both of which a stepping one comes to a stand */

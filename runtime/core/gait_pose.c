@@ -58,24 +58,30 @@ static void apply_style(const ff_blend_space *space, const ff_gait *gait, ff_qua
 /* A foot near the ground is set by its yaw and pitch alone, so that it lies flat. One on its toes or in the air rolls as in
  * the clip, but for the yaw, taken as the twist about the vertical: the heading of a foot that hangs straight down says
  * nothing. Its pitch is the gait's: small steps of the semi-procedural clip do not lift the heel as high as the clip's. In a
- * run, whose feet are thrown up beyond the vertical, it is the clip's. */
-static ff_quat foot_rotation(const ff_gait_foot *state, ff_quat clip, bool runs)
+ * run, whose feet are thrown up beyond the vertical, it is the clip's. own: the share of the gait's. */
+static ff_quat foot_rotation(const ff_gait_foot *state, ff_quat clip, double own)
 {
     ff_quat flat = ff_gait_foot_rotation(state->now.yaw, state->pitch);
     double share = ff_smooth((fabs(state->pitch) - FLAT_TO) / (FREE_FROM - FLAT_TO));
     if (share <= 0.0) return flat;
     ff_quat turn = ff_quat_mul(ff_quat_yaw(-2.0 * ff_atan2(clip.y, clip.w)), clip);
     ff_vec3 ahead = ff_quat_rotate(turn, ff_v3(0.0, 0.0, 1.0));
-    double up = runs ? 0.0 : ff_wrap(state->pitch - ff_atan2(ahead.y, ahead.z));
+    double up = own * ff_wrap(state->pitch - ff_atan2(ahead.y, ahead.z));
     turn = ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), turn);
     return ff_quat_nlerp(flat, ff_quat_mul(ff_quat_yaw(state->now.yaw), turn), share);
+}
+
+/* 1 at the last change of way to 0. */
+static double left_of_change(const ff_pose_offset *offset)
+{
+    return ff_pose_offset_active(offset) ? 1.0 - ff_smooth(offset->age / FF_POSE_OFFSET_TIME) : 0.0;
 }
 
 #define ROLLS (20.0 * FF_DEG) /* pitch of a foot that is up on its toes */
 #define FLIES 0.08            /* of the swing, from where on, and until where before its end, a foot flies */
 #define TOES_RELAX 0.42 /* of the swing, in which toes that the floor has bent come back to the clip's */
 
-static ff_leg_target target_of(const ff_gait_foot *state, ff_quat clip, bool runs)
+static ff_leg_target target_of(const ff_gait_foot *state, ff_quat clip, double own)
 {
     double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
     double swing = state->planted ? 0.0 : state->progress;
@@ -83,7 +89,7 @@ static ff_leg_target target_of(const ff_gait_foot *state, ff_quat clip, bool run
     /* A foot that rises quickly is off the floor before its toes have come back from where that has bent them. */
     double bent = state->planted ? 0.0 : 1.0 - ff_smooth(swing / TOES_RELAX);
     return (ff_leg_target){.ball = state->now,
-                           .turn = foot_rotation(state, clip, runs),
+                           .turn = foot_rotation(state, clip, own),
                            .clearance = TOE_CLEARANCE * arc,
                            .most_raise = MOST_RAISE,
                            .grip = 1.0,
@@ -97,9 +103,9 @@ static void pose_legs(const ff_body_frame *body, const ff_gait *gait, ff_vec3 hi
     ff_legs legs;
     ff_leg_target target[2];
     ff_legs_of_clip(body, hips, rotations, &legs);
-    bool runs = gait->blend.way == FF_RUNNING;
+    double own = gait->blend.way == FF_RUNNING ? left_of_change(&gait->offset) : 1.0;
     for (int foot = 0; foot < 2; ++foot)
-        target[foot] = target_of(&gait->foot[foot], ff_pairq_half(legs.foot, foot), runs);
+        target[foot] = target_of(&gait->foot[foot], ff_pairq_half(legs.foot, foot), own);
     ff_legs_pose(body, target, &legs, rotations);
 }
 
