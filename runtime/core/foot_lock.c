@@ -15,6 +15,8 @@
 #define PASS_ASIDE 0.08      /* m between ankles as one passes the other (gait facts: people 8.7 to 9.4 cm) */
 #define PASS_AHEAD 0.30      /* m, from where on ankles are not beside each other */
 #define LEAST_SPREAD 0.11    /* m between balls sideways while the feet are side by side */
+#define LEAST_HEELS 0.08     /* m, the same between ankles ... */
+#define LEAST_HEELS_AHEAD 0.15  /* ... as long as they are beside each other */
 #define LEAST_SPREAD_AHEAD 0.30 /* m, from where on one foot in front of the other may be in line with it */
 
 /* Mean over the next time s of a rate that changes by acceleration until it is zero, or for SPEED_UP_TIME. */
@@ -209,14 +211,25 @@ static void close_up(const ff_foot_scene *scene, int foot, double time, ff_footh
     plan->yaw += share * ff_wrap(stand.yaw - plan->yaw);
 }
 
-/* Keep the new footprint on its own side of the standing foot: legs never cross. */
-static void keep_sides(const ff_gait_foot *other, int foot, ff_foothold *plan)
+/* Ground point under the ankle of a foot that lies flat. */
+static ff_vec2 ankle_ground(const ff_body_frame *body, int foot, ff_foothold ball)
+{
+    ff_vec3 to_ball = body->offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+    return ff_madd2(ff_v2(ball.a, ball.b), ff_fwd2(ball.yaw), -to_ball.z);
+}
+
+/* Keep the new footprint on its own side of the standing foot: legs never cross, and toes that point apart bring no heels
+ * together. */
+static void keep_sides(const ff_body_frame *body, const ff_gait_foot *other, int foot, ff_foothold *plan)
 {
     ff_vec2 forward = ff_fwd2(plan->yaw);
-    ff_vec2 apart = ff_to_frame2(forward, ff_v2(plan->a - other->lock.a, plan->b - other->lock.b));
     double side = foot == 0 ? 1.0 : -1.0;
-    double wanted = LEAST_SPREAD * (1.0 - ff_smooth(fabs(apart.a) / LEAST_SPREAD_AHEAD));
-    double missing = wanted - side * apart.b;
+    ff_vec2 balls = ff_to_frame2(forward, ff_v2(plan->a - other->lock.a, plan->b - other->lock.b));
+    ff_vec2 heels = ff_to_frame2(
+        forward, ff_sub2(ankle_ground(body, foot, *plan), ankle_ground(body, 1 - foot, other->lock)));
+    double wanted = LEAST_SPREAD * (1.0 - ff_smooth(fabs(balls.a) / LEAST_SPREAD_AHEAD));
+    double beside = 1.0 - ff_smooth(fabs(heels.a) / LEAST_HEELS_AHEAD);
+    double missing = ff_max(wanted - side * balls.b, beside * (LEAST_HEELS - side * heels.b));
     if (missing <= 0.0) return;
     ff_vec2 push = ff_scale2(ff_left2(forward), side * missing);
     plan->a += push.a;
@@ -262,13 +275,6 @@ static double height_offset(const ff_gait_foot *state, ff_foothold to, ff_footho
         return hermite(early, state->from.height, state->slope.height * span * LIFT_WINDOW, 0.0, 0.0);
     if (late > 0.0) return hermite(late, 0.0, 0.0, to.height, slope.height * span * LAND_WINDOW);
     return 0.0;
-}
-
-/* Ground point under the ankle of a foot that lies flat. */
-static ff_vec2 ankle_ground(const ff_body_frame *body, int foot, ff_foothold ball)
-{
-    ff_vec3 to_ball = body->offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
-    return ff_madd2(ff_v2(ball.a, ball.b), ff_fwd2(ball.yaw), -to_ball.z);
 }
 
 /* Push a foot that swings past the standing one out to the side, so that ankles do not brush (study, section 5). */
@@ -340,7 +346,7 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     ff_foothold landing = clip_foot_later(scene, foot, start, time);
     ff_foothold wanted = stance_mean(scene, foot, landing, start, length, time);
     close_up(scene, foot, time, &wanted);
-    keep_sides(other, foot, &wanted);
+    keep_sides(&scene->space->body, other, foot, &wanted);
     if (first) state->lock = wanted;
     replan(state, wanted, state->progress, scene->dt);
     fly(scene, state, other, foot, landing,

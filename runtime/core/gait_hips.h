@@ -3,6 +3,7 @@
 #define FF_GAIT_HIPS_H
 
 #include "runtime/core/gait_sample.h"
+#include "runtime/core/leg_pose.h"
 
 /* Cursor of the idle example, if the gait stands or begins to and the pack has one; false otherwise. */
 bool ff_gait_idle_cursor(const ff_blend_space *space, const ff_gait *gait, ff_cursor *out);
@@ -26,5 +27,8 @@ void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cur
  * gait_pose.c. */
 void ff_gait_idle_pose(const ff_blend_space *space, double idle_time, ff_vec2 position, double heading,
                        ff_vec3 *hips, ff_quat *rotations);
+
+/* Where a foot is to be, turned as it is. In gait_pose.c. */
+ff_leg_target ff_gait_leg_target(const ff_gait_foot *state, ff_quat turn);
 
 #endif

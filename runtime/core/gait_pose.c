@@ -81,7 +81,7 @@ static double left_of_change(const ff_pose_offset *offset)
 #define FLIES 0.08            /* of the swing, from where on, and until where before its end, a foot flies */
 #define TOES_RELAX 0.42 /* of the swing, in which toes that the floor has bent come back to the clip's */
 
-static ff_leg_target target_of(const ff_gait_foot *state, ff_quat clip, double own)
+ff_leg_target ff_gait_leg_target(const ff_gait_foot *state, ff_quat turn)
 {
     double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
     double swing = state->planted ? 0.0 : state->progress;
@@ -89,13 +89,14 @@ static ff_leg_target target_of(const ff_gait_foot *state, ff_quat clip, double o
     /* A foot that rises quickly is off the floor before its toes have come back from where that has bent them. */
     double bent = state->planted ? 0.0 : 1.0 - ff_smooth(swing / TOES_RELAX);
     return (ff_leg_target){.ball = state->now,
-                           .turn = foot_rotation(state, clip, own),
+                           .turn = turn,
                            .clearance = TOE_CLEARANCE * arc,
                            .most_raise = MOST_RAISE,
                            .grip = 1.0,
                            .swing = swing,
                            .round = round,
-                           .bent = bent};
+                           .bent = bent,
+                           .give = state->give};
 }
 
 static void pose_legs(const ff_body_frame *body, const ff_gait *gait, ff_vec3 hips, ff_quat *rotations)
@@ -105,7 +106,8 @@ static void pose_legs(const ff_body_frame *body, const ff_gait *gait, ff_vec3 hi
     ff_legs_of_clip(body, hips, rotations, &legs);
     double own = gait->blend.way == FF_RUNNING ? left_of_change(&gait->offset) : 1.0;
     for (int foot = 0; foot < 2; ++foot)
-        target[foot] = target_of(&gait->foot[foot], ff_pairq_half(legs.foot, foot), own);
+        target[foot] = ff_gait_leg_target(
+            &gait->foot[foot], foot_rotation(&gait->foot[foot], ff_pairq_half(legs.foot, foot), own));
     ff_legs_pose(body, target, &legs, rotations);
 }
 

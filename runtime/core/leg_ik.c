@@ -4,6 +4,8 @@
 #define SOFT_TO 0.998
 #define SWING_FROM 0.95
 #define SWING_TO 0.993
+#define SWING_TAKES 0.15 /* of the swing, in which a leg becomes free to fall short of its foot ... */
+#define SWING_GIVES 0.25 /* ... and before the landing no longer is */
 
 static double ease(double distance, double from, double to)
 {
@@ -19,6 +21,12 @@ double ff_leg_soft_reach(double distance, double leg_length)
 double ff_leg_swing_reach(double distance, double leg_length, double share)
 {
     return ff_lerp(distance, ease(distance, SWING_FROM * leg_length, SWING_TO * leg_length), share);
+}
+
+double ff_leg_swing_distance(double swing, double distance, double leg_length)
+{
+    double share = ff_smooth(swing / SWING_TAKES) * ff_smooth((1.0 - swing) / SWING_GIVES);
+    return ff_leg_swing_reach(distance, leg_length, share);
 }
 
 /* Part of v at right angles to unit vector line. */

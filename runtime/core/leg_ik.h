@@ -28,6 +28,9 @@ double ff_leg_soft_reach(double distance, double leg_length);
  * ahead does not stop short where the leg ends. share: 0 reaches like a standing leg, 1 eases fully. */
 double ff_leg_swing_reach(double distance, double leg_length, double share);
 
+/* The same at a time of the swing, 0 to 1: at both ends the leg has to reach its foot. */
+double ff_leg_swing_distance(double swing, double distance, double leg_length);
+
 /* Move the leg's hip to hip and its ankle to (towards, when out of reach) ankle. The knee keeps the side the clip has
  * it on, carried over with the smallest rotation from the old hip-ankle line to the new one; bones keep their twist.
  * The foot's rotation is left alone. */

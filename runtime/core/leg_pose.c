@@ -6,8 +6,6 @@
     0.08 /* of the reach: what a foot may be too far off in mid swing; at both ends its heel stays up */
 #define ROUND_REACH                                                                                          \
     0.025 /* of the leg, over which the corner is rounded where a foot gets out of reach and back */
-#define SWING_TAKES 0.15 /* of the swing, in which a leg becomes free to fall short of its foot ... */
-#define SWING_GIVES 0.25 /* ... and before the landing no longer is */
 
 /* How far from the hip the ankle may be: FF_LEG_REACH for a foot on the ground. Where the foot rolls or flies, the corner is
  * rounded, or the knee would stop and bend all at once. */
@@ -21,12 +19,12 @@ static double allowed_distance(const ff_leg_target *target, double distance, dou
 }
 
 /* Where the ankle of a swinging leg may get to. */
-static ff_vec3 swing_in_reach(double swing, ff_vec3 hip, ff_vec3 ankle, double leg_length)
+static ff_vec3 swing_in_reach(const ff_leg_target *target, ff_vec3 hip, ff_vec3 ankle, double leg_length)
 {
-    double share = ff_smooth(swing / SWING_TAKES) * ff_smooth((1.0 - swing) / SWING_GIVES);
     ff_vec3 away = ff_sub3(ankle, hip);
     double distance = ff_length3(away);
-    return ff_madd3(hip, away, ff_leg_swing_reach(distance, leg_length, share) / distance);
+    double wanted = ff_leg_swing_distance(target->swing, distance, leg_length) + target->give;
+    return ff_madd3(hip, away, wanted / distance);
 }
 
 /* rad, between the way from the ball to the ankle and that to the hip: the last of it would be raised within a frame, for
@@ -119,9 +117,8 @@ void ff_legs_of_pose(const ff_body_frame *body, ff_vec3 hips, const ff_quat *rot
     }
 }
 
-/* Where a foot's ankle shall be; the heel raised, or the leg let short of it, where it is out of reach. */
-static ff_vec3 ankle_in_reach(const ff_body_frame *body, int foot, const ff_leg_target *target, ff_vec3 hip,
-                              ff_quat *turn)
+ff_vec3 ff_leg_ankle(const ff_body_frame *body, int foot, const ff_leg_target *target, ff_vec3 hip,
+                     ff_quat *turn)
 {
     double length = body->thigh[foot] + body->shank[foot];
     ff_vec3 ankle = ff_gait_ankle(body, foot, target->ball, *turn);
@@ -132,7 +129,7 @@ static ff_vec3 ankle_in_reach(const ff_body_frame *body, int foot, const ff_leg_
         *turn = target->grip < 1.0 ? ff_quat_nlerp(*turn, raised, target->grip) : raised;
         ankle = ff_gait_ankle(body, foot, target->ball, *turn);
     }
-    return target->swing > 0.0 ? swing_in_reach(target->swing, hip, ankle, length) : ankle;
+    return target->swing > 0.0 ? swing_in_reach(target, hip, ankle, length) : ankle;
 }
 
 void ff_legs_pose(const ff_body_frame *body, const ff_leg_target target[2], ff_legs *legs, ff_quat *rotations)
@@ -141,7 +138,7 @@ void ff_legs_pose(const ff_body_frame *body, const ff_leg_target target[2], ff_l
     ff_quat turn[2], toes[2];
     for (int foot = 0; foot < 2; ++foot) {
         turn[foot] = target[foot].turn;
-        ankle[foot] = ankle_in_reach(body, foot, &target[foot], ff_pair3_half(legs->hip, foot), &turn[foot]);
+        ankle[foot] = ff_leg_ankle(body, foot, &target[foot], ff_pair3_half(legs->hip, foot), &turn[foot]);
         toes[foot] = toes_on_floor(body, &target[foot], foot, turn[foot],
                                    rotations[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE]);
     }

@@ -22,7 +22,12 @@ typedef struct ff_leg_target {
     double swing; /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
     double round; /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
     double bent; /* 0 to 1: how much of the bend that toes flat on the floor would have, they have at least */
+    double give; /* m, by which the leg is longer than to the foot's place */
 } ff_leg_target;
+
+/* Where a foot's ankle shall be; the heel raised (turn, of the foot), or the leg let short of it, where it is out of reach. */
+ff_vec3 ff_leg_ankle(const ff_body_frame *body, int foot, const ff_leg_target *target, ff_vec3 hip,
+                     ff_quat *turn);
 
 /* Solve legs (as ff_legs_of_clip gives them) to their targets, left and right, and write each leg's four local rotations,
  * of which the toes' are read. */

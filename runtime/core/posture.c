@@ -6,6 +6,7 @@
 
 static const int trunk[4] = {FF_JOINT_SPINE, FF_JOINT_CHEST, FF_JOINT_NECK, FF_JOINT_HEAD};
 static const int clavicle[2] = {FF_JOINT_CLAVICLE_L, FF_JOINT_CLAVICLE_R};
+static const int wrist[2] = {FF_JOINT_WRIST_L, FF_JOINT_WRIST_R};
 static const int of_hips[3] = {FF_JOINT_SPINE, FF_JOINT_HIP_L, FF_JOINT_HIP_R};
 
 static ff_quat add(ff_quat sum, ff_quat q)
@@ -67,6 +68,8 @@ void ff_posture_level(const ff_posture *own, const ff_posture *common, ff_quat *
         ff_quat level = moved(common->mean[clavicle[side]], own->mean[clavicle[side]], *at);
         *upper_arm = ff_quat_mul(ff_quat_conj(level), ff_quat_mul(*at, *upper_arm));
         *at = level;
+        ff_quat *hand = &rotations[wrist[side]];
+        *hand = moved(common->mean[wrist[side]], own->mean[wrist[side]], *hand);
     }
     ff_quat hips = held(own->mean[FF_JOINT_HIPS], common->mean[FF_JOINT_HIPS], false);
     ff_quat level = moved(hips, own->mean[FF_JOINT_HIPS], rotations[FF_JOINT_HIPS]);

@@ -26,6 +26,9 @@ typedef struct ff_gait_foot {
     double elapsed;    /* s, of the swing */
     double progress;   /* 0 to 1 of the swing */
     double phase_left; /* u, to the landing */
+    double knee;       /* rad, its bend; 0 while nobody looks after it ... */
+    double knee_speed; /* rad/s */
+    double give; /* m, that the leg is longer than to its foot in the air, so that the knee takes its time */
     uint32_t planted, unused;
 } ff_gait_foot;
 
