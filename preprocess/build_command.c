@@ -139,7 +139,7 @@ static int settle(const ff_command *command, const build_words *words, ff_build_
     if (words->skeleton) {
         if (strlen(words->skeleton) >= FF_SETTING_PATH)
             return ff_command_misuse(command, "--skeleton: the path is too long");
-        strcpy(settings->pack.rig.skeleton, words->skeleton);
+        memcpy(settings->pack.rig.skeleton, words->skeleton, strlen(words->skeleton) + 1);
     }
     if (words->actions > 0) settings->pack.actions.count = words->actions;
     if (words->no_derived) settings->pack.actions.derive = false;

@@ -146,7 +146,6 @@ ff_status ff_derive_stance_move(const ff_derive_base *base, const ff_stance_move
     ff_status status = ff_motion_alloc(out, frames_of(whole), 1.0 / RATE, error);
     body before = stand_body(base, ff_v3(0.0, 0.0, 0.0));
     body after = stand_body(base, ff_v3(move->forward, move->left, move->turn));
-    ff_quat look = FF_QUAT_IDENTITY;
     for (int k = 0; status == FF_OK && k < out->frame_count; ++k) {
         double time = k / RATE, gone = share(time, begin, end);
         body b = before;
@@ -160,7 +159,7 @@ ff_status ff_derive_stance_move(const ff_derive_base *base, const ff_stance_move
         double over = hump(time, begin, from[1]) - 0.7 * hump(time, to[0], end + 0.1);
         b.hips.y += side * SWAY * over;
         b.hips.z -= DIP * (hump(time, begin, to[0]) + hump(time, to[0], end));
-        look = ff_quat_yaw(HEAD_FIRST * move->turn * hump(time, begin - 0.15, end));
+        ff_quat look = ff_quat_yaw(HEAD_FIRST * move->turn * hump(time, begin - 0.15, end));
         b.local[FF_ROLE_NECK] = ff_quat_mul(look, b.local[FF_ROLE_NECK]);
         put_frame(rig, &b, k, out);
     }

@@ -34,14 +34,15 @@
             offsetof(ff_settings, group section.key)                                                         \
     }
 
-#define FILE_NAME(section, key, stage, what)                                                                 \
+#define FILE_NAME(group, section, key, stage, what)                                                          \
     {                                                                                                        \
-#section, #key, FF_SETTING_FILE, stage, "", 0.0, 0.0, 1.0, what, offsetof(ff_settings, section.key)  \
+#section, #key, FF_SETTING_FILE, stage, "", 0.0, 0.0, 1.0, what,                                     \
+            offsetof(ff_settings, group section.key)                                                         \
     }
 
 /* Settings of one section stand together. Where a value comes from is told where it is used. */
 const ff_setting ff_setting_table[] = {
-    FILE_NAME(rig, skeleton, FF_STAGE_PACK,
+    FILE_NAME(, rig, skeleton, FF_STAGE_PACK,
               "clip or skeleton file (.asf, .bvh, .gltf, .glb, .amc) whose body the pack has; else the "
               "median of all"),
     /* where a capture is broken */

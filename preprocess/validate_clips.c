@@ -75,8 +75,9 @@ static bool find_source(const validation *v, uint32_t index, ff_build_clip *clip
     int built_in = strncmp(source, "built-in/", 9) == 0 ? ff_generator_find(source + 9) : -1;
     if (!entry && built_in < 0) return false;
     ff_build_clip_begin(clip, entry, built_in);
-    clip->source = malloc(strlen(source) + 1);
-    if (clip->source) strcpy(clip->source, source);
+    size_t size = strlen(source) + 1;
+    clip->source = malloc(size);
+    if (clip->source) memcpy(clip->source, source, size);
     return clip->source != NULL;
 }
 

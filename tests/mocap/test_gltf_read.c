@@ -1,6 +1,7 @@
 /* The glTF reader on hand-made files, against closed forms. */
 #define _POSIX_C_SOURCE 200809L
 #include "mocap/read.h"
+#include "tests/folder.h"
 #include "tests/mocap/gltf_make.h"
 
 #include <sys/stat.h>
@@ -299,9 +300,7 @@ static int make_folder(void **state)
 static int remove_folder(void **state)
 {
     (void)state;
-    char command[600];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    return ff_remove_tree(folder);
 }
 
 static void write_file(const char *name, const void *data, size_t size)

@@ -4,6 +4,7 @@
 
 #include "runtime/core/base/file.h"
 #include "tests/check.h"
+#include "tests/folder.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -22,9 +23,7 @@ static int make_folder(void **state)
 static int remove_folder(void **state)
 {
     (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    return ff_remove_tree(folder);
 }
 
 static int file_count(void)
