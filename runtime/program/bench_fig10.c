@@ -238,7 +238,7 @@ int ff_bench_fig10_main(int argc, char **argv)
     if (status >= 0) return status;
     bool known = !scene;
     for (int i = 0; i < ROWS; ++i)
-        known = known || strcmp(scene, rows[i].scene) == 0;
+        known = known || (scene && strcmp(scene, rows[i].scene) == 0);
     return known ? run_fig10(&given, scene)
                  : ff_bench_misuse(&command, "--scene", scene, "four, circle or crossing");
 }
