@@ -3,6 +3,7 @@
 #include "runtime/core/base/file.h"
 #include "runtime/tool/command_line.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,12 +35,20 @@ int ff_bench_main(int argc, char **argv)
                                benches, argc + 1, argv - 1);
 }
 
-ff_status ff_bench_write_json(const char *path, json_t *value, ff_error *error)
+ff_status ff_bench_write_json(const ff_bench_options *options, const char *name, json_t *value,
+                              ff_error *error)
 {
     char *text = value ? json_dumps(value, JSON_INDENT(2) | JSON_REAL_PRECISION(8)) : NULL;
     json_decref(value);
-    if (!text) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for %s", path);
-    ff_status status = ff_file_write_atomic(path, text, strlen(text), error);
+    if (!text) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for the table of %s", name);
+    ff_status status = FF_OK;
+    if (options->json) status = ff_file_write_atomic(options->json, text, strlen(text), error);
+    if (status == FF_OK && options->out) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s/%s.json", options->out, name);
+        status = ff_folder_create(options->out, error);
+        if (status == FF_OK) status = ff_file_write_atomic(path, text, strlen(text), error);
+    }
     free(text);
     return status;
 }

@@ -3,6 +3,7 @@
 #define FF_BENCH_H
 
 #include "runtime/core/base/fail.h"
+#include "runtime/program/bench_options.h"
 
 #include <jansson.h>
 
@@ -19,7 +20,9 @@ int ff_bench_fig9_main(int argc, char **argv);
 int ff_bench_fig10_main(int argc, char **argv);
 int ff_bench_facts_main(int argc, char **argv);
 
-/* Write value to path and give it back to jansson; NULL means that memory ran out. */
-ff_status ff_bench_write_json(const char *path, json_t *value, ff_error *error);
+/* Write value where --json says and as NAME.json into the folder of --out, made if missing; where neither is given,
+ * nowhere. Gives value back to jansson; NULL means that memory ran out. */
+ff_status ff_bench_write_json(const ff_bench_options *options, const char *name, json_t *value,
+                              ff_error *error);
 
 #endif

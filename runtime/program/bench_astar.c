@@ -211,14 +211,10 @@ static ff_status write_files(const astar *all, ff_error *error)
 {
     const ff_bench_options *common = &all->options->common;
     char path[4096];
-    ff_status status = FF_OK;
-    if (common->json) status = ff_bench_write_json(common->json, table_json(all), error);
+    ff_status status = ff_bench_write_json(common, "astar", table_json(all), error);
     if (status != FF_OK || !common->out) return status;
-    status = ff_folder_create(common->out, error);
     snprintf(path, sizeof path, "%s/astar.csv", common->out);
-    if (status == FF_OK) status = write_csv(all, path, error);
-    snprintf(path, sizeof path, "%s/astar.json", common->out);
-    if (status == FF_OK) status = ff_bench_write_json(path, table_json(all), error);
+    status = write_csv(all, path, error);
     snprintf(path, sizeof path, "%s/astar.png", common->out);
     if (status == FF_OK)
         status = ff_plan_scenes_write(path, &all->street[0], &all->street[1], &all->street[2], error);

@@ -108,7 +108,7 @@ static int run_facts(const facts_options *options, ff_synthesis synthesis)
     if (status == FF_OK) status = fill(pack, options, synthesis, &table, &error);
     if (status == FF_OK) print_table(&table);
     if (status == FF_OK && options->common.json)
-        status = ff_bench_write_json(options->common.json, table_json(&table), &error);
+        status = ff_bench_write_json(&options->common, "facts", table_json(&table), &error);
     ff_pack_close(pack);
     return status == FF_OK ? FF_EXIT_OK : ff_command_fail(FF_BENCH_PROGRAM, &error);
 }

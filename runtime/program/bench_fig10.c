@@ -175,13 +175,10 @@ static ff_status write_files(contacts *all, ff_error *error)
 {
     const ff_bench_options *options = all->options;
     char path[4096];
-    ff_status status = FF_OK;
-    if (options->json) status = ff_bench_write_json(options->json, rows_json(all), error);
+    ff_status status = ff_bench_write_json(options, "fig10", rows_json(all), error);
     if (status != FF_OK || !options->out) return status;
     snprintf(path, sizeof path, "%s/fig10.csv", options->out);
     status = write_csv(all, path, error);
-    snprintf(path, sizeof path, "%s/fig10.json", options->out);
-    if (status == FF_OK) status = ff_bench_write_json(path, rows_json(all), error);
     snprintf(path, sizeof path, "%s/fig10-ours.png", options->out);
     if (status == FF_OK) status = draw_four(all, &rows[0], path, error);
     snprintf(path, sizeof path, "%s/fig10-paper.png", options->out);

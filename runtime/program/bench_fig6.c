@@ -198,14 +198,10 @@ static ff_status write_files(const growth *all, ff_error *error)
 {
     const ff_bench_options *common = &all->options->common;
     char path[4096];
-    ff_status status = FF_OK;
-    if (common->json) status = ff_bench_write_json(common->json, table_json(all), error);
+    ff_status status = ff_bench_write_json(common, "fig6", table_json(all), error);
     if (status != FF_OK || !common->out) return status;
-    status = ff_folder_create(common->out, error);
     snprintf(path, sizeof path, "%s/fig6.csv", common->out);
-    if (status == FF_OK) status = write_csv(all, path, error);
-    snprintf(path, sizeof path, "%s/fig6.json", common->out);
-    if (status == FF_OK) status = ff_bench_write_json(path, table_json(all), error);
+    status = write_csv(all, path, error);
     snprintf(path, sizeof path, "%s/fig6.png", common->out);
     if (status == FF_OK) status = write_picture(all, path, error);
     return status;

@@ -228,13 +228,10 @@ static ff_status write_files(const circles *all, ff_error *error)
 {
     const circle_options *options = all->options;
     char path[4096];
-    ff_status status = FF_OK;
-    if (options->common.json) status = ff_bench_write_json(options->common.json, circles_json(all), error);
+    ff_status status = ff_bench_write_json(&options->common, "fig7", circles_json(all), error);
     if (status != FF_OK || !options->common.out) return status;
     snprintf(path, sizeof path, "%s/fig7.csv", options->common.out);
     status = write_csv(all, path, error);
-    snprintf(path, sizeof path, "%s/fig7.json", options->common.out);
-    if (status == FF_OK) status = ff_bench_write_json(path, circles_json(all), error);
     return status;
 }
 

@@ -235,13 +235,10 @@ static ff_status write_files(const frames *all, ff_error *error)
 {
     const ff_bench_options *common = &all->options->common;
     char path[4096];
-    ff_status status = FF_OK;
-    if (common->json) status = ff_bench_write_json(common->json, rows_json(all), error);
+    ff_status status = ff_bench_write_json(common, "fig9", rows_json(all), error);
     if (status != FF_OK || !common->out) return status;
     snprintf(path, sizeof path, "%s/fig9.csv", common->out);
     status = write_csv(all, path, error);
-    snprintf(path, sizeof path, "%s/fig9.json", common->out);
-    if (status == FF_OK) status = ff_bench_write_json(path, rows_json(all), error);
     snprintf(path, sizeof path, "%s/fig9.png", common->out);
     return status == FF_OK ? draw(all, path, error) : status;
 }

@@ -253,14 +253,10 @@ static ff_status write_files(const hybrid_bench *bench, ff_error *error)
 {
     const char *out = bench->options->out;
     char path[4096];
-    ff_status status = FF_OK;
-    if (bench->options->json) status = ff_bench_write_json(bench->options->json, table_json(bench), error);
+    ff_status status = ff_bench_write_json(bench->options, "hybrid", table_json(bench), error);
     if (status != FF_OK || !out) return status;
-    status = ff_folder_create(out, error);
     snprintf(path, sizeof path, "%s/hybrid.csv", out);
-    if (status == FF_OK) status = write_csv(bench, path, error);
-    snprintf(path, sizeof path, "%s/hybrid.json", out);
-    if (status == FF_OK) status = ff_bench_write_json(path, table_json(bench), error);
+    status = write_csv(bench, path, error);
     snprintf(path, sizeof path, "%s/hybrid.png", out);
     if (status == FF_OK) status = write_chart(bench, path, error);
     if (status == FF_OK) status = draw_runs(bench, out, error);

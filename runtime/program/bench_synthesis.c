@@ -180,14 +180,10 @@ static ff_status write_files(const synthesis_table *table, ff_error *error)
 {
     const ff_bench_options *common = &table->options->common;
     char path[4096];
-    ff_status status = FF_OK;
-    if (common->json) status = ff_bench_write_json(common->json, table_json(table), error);
+    ff_status status = ff_bench_write_json(common, "synthesis", table_json(table), error);
     if (status != FF_OK || !common->out) return status;
-    status = ff_folder_create(common->out, error);
     snprintf(path, sizeof path, "%s/synthesis.csv", common->out);
-    if (status == FF_OK) status = write_csv(table, path, error);
-    snprintf(path, sizeof path, "%s/synthesis.json", common->out);
-    if (status == FF_OK) status = ff_bench_write_json(path, table_json(table), error);
+    status = write_csv(table, path, error);
     snprintf(path, sizeof path, "%s/synthesis.png", common->out);
     if (status == FF_OK) status = write_picture(table, path, error);
     return status;

@@ -226,14 +226,10 @@ static ff_status write_files(const table *t, ff_error *error)
 {
     const char *out = t->options->common.out;
     char path[4096];
-    ff_status status = FF_OK;
-    if (t->options->common.json) status = ff_bench_write_json(t->options->common.json, table_json(t), error);
+    ff_status status = ff_bench_write_json(&t->options->common, "table1", table_json(t), error);
     if (status != FF_OK || !out) return status;
-    status = ff_folder_create(out, error);
     snprintf(path, sizeof path, "%s/table1.csv", out);
-    if (status == FF_OK) status = write_csv(t, path, error);
-    snprintf(path, sizeof path, "%s/table1.json", out);
-    if (status == FF_OK) status = ff_bench_write_json(path, table_json(t), error);
+    status = write_csv(t, path, error);
     snprintf(path, sizeof path, "%s/table1.png", out);
     if (status == FF_OK) status = write_picture(t, path, error);
     return status;

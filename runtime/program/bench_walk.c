@@ -266,7 +266,7 @@ static int run_walk(const walk_options *options, ff_synthesis synthesis)
         json_t *all =
             json_pack("{s:s, s:s, s:f, s:f, s:O}", "bench", "walk", "synthesis", ff_synthesis_name(synthesis),
                       "seconds", options->seconds, "dt", options->step, "rows", bench.rows);
-        status = ff_bench_write_json(options->common.json, all, &error);
+        status = ff_bench_write_json(&options->common, "walk", all, &error);
     }
     json_decref(bench.rows);
     free(bench.examples);
