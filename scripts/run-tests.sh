@@ -5,8 +5,8 @@
 #
 # BUILD is the folder the programs under test were built in (FF_BUILD for the program). PROGRAM is a cmocka test, a
 # script of tests/e2e, which speaks the same words, or a fuzzer (fuzz_*): it goes over its saved seeds in
-# tests/fuzz/seeds and then FF_FUZZ_RUNS (20000) runs further. Prints one line per program, everything a failed one
-# said, and every line that begins with SKIPPED. The last line is the total: "N passed, N failed[, N skipped]".
+# tests/fuzz/seeds and then FF_FUZZ_RUNS (20000) runs further. Prints one line per program with the seconds it took, everything a
+# failed one said, and every line that begins with SKIPPED. The last line is the total: "N passed, N failed[, N skipped]".
 
 log_of() { # BUILD:PROGRAM
     echo "${1%%:*}/logs/$(echo "${1#*:}" | tr '/' '-').log"
@@ -37,12 +37,14 @@ run_one() { # BUILD:PROGRAM; its counts go beside its log
     export FF_BUILD program
     log=$(log_of "$1")
     mkdir -p "$(dirname "$log")"
+    began=$(date +%s)
     case $(basename "$program") in
     fuzz_*) fuzz "$program" >"$log" 2>&1 ;;
     *.sh) timeout "${FF_TEST_SECONDS:-300}" sh "$program" >"$log" 2>&1 ;;
     *) timeout "${FF_TEST_SECONDS:-300}" "$program" >"$log" 2>&1 ;;
     esac
     status=$?
+    took=$(($(date +%s) - began))
     awk -v status="$status" '
         /\[  PASSED  \] [0-9]+ test/ { match($0, /PASSED  \] [0-9]+/); passed += substr($0, RSTART + 10, RLENGTH - 10) }
         /\[  FAILED  \] [0-9]+ test/ { match($0, /FAILED  \] [0-9]+/); failed += substr($0, RSTART + 10, RLENGTH - 10) }
@@ -60,7 +62,7 @@ run_one() { # BUILD:PROGRAM; its counts go beside its log
             { if (run) print run; run = ""; print } END { if (run) print run }' "$log" | tail -60
     else
         grep '^SKIPPED' "$log" | sed "s|^SKIPPED[: ]*|SKIPPED: $program: |"
-        echo "ok: $program ($passed)"
+        echo "ok: $program ($passed) $took s"
     fi
 }
 

@@ -2,20 +2,6 @@
 #include "runtime/core/base/random.h"
 #include "tests/core/walker_space.h"
 
-static int set_up(void **state)
-{
-    static ff_walker_space walker;
-    walker = ff_walker_space_make(&ff_walker_grid_full);
-    *state = &walker;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    ff_walker_space_free(*state);
-    return 0;
-}
-
 static ff_rates random_rates(ff_random *random, double beyond)
 {
     return (ff_rates){ff_random_range(random, -0.8 * beyond, 1.8 * beyond),
@@ -169,5 +155,5 @@ int main(void)
         cmocka_unit_test(a_pack_with_every_simplex_twice_can_be_blended),
         cmocka_unit_test(a_pack_of_one_line_of_walks_is_projected_onto),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, open_full_walkers, close_walkers);
 }

@@ -1,9 +1,7 @@
 /* People of different sizes: drawn from the seed, standing on the ground, walking in proportion; all ways to draw them agree. */
 #define _GNU_SOURCE
 #include "runtime/core/crowd_state.h"
-#include "tests/built_in_pack.h"
-
-static ff_pack *pack;
+#include "tests/built_in_open.h"
 
 enum { PEOPLE = 40 };
 
@@ -184,21 +182,6 @@ static void sizes_out_of_range_are_refused(void **state)
     }
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    ff_error error;
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,5 +191,5 @@ int main(void)
         cmocka_unit_test(a_larger_body_does_everything_in_proportion),
         cmocka_unit_test(sizes_out_of_range_are_refused),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, open_pack, close_pack);
 }

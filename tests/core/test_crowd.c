@@ -1,4 +1,5 @@
 /* Crowds through the public API: life and death of agents, goals, walls, determinism, bad arguments. */
+#include "tests/core/crowd_ask.h"
 #include "tests/core/crowd_trial.h"
 #include "tests/core/walker_open.h"
 
@@ -25,14 +26,6 @@ static ff_agent add(ff_crowd *crowd, ff_vec2 from, ff_vec2 goal)
     def.heading = ff_atan2(way.b, way.a);
     FF_ASSERT_OK(ff_crowd_add_agent(crowd, &def, &agent, &error), error);
     return agent;
-}
-
-static ff_agent_state state_of(const ff_crowd *crowd, ff_agent agent)
-{
-    ff_error error;
-    ff_agent_state s;
-    FF_ASSERT_OK(ff_crowd_agent_state(crowd, agent, &s, &error), error);
-    return s;
 }
 
 static void a_lone_walker_goes_straight_to_the_goal_and_stands_there_without_dithering(void **state)

@@ -1,6 +1,7 @@
 /* Crowds with behaviour: what happens at a small fair (behave_fair.h), and the same to the bit however it is stepped. */
 #include "tests/check.h"
 #include "tests/core/behave_fair.h"
+#include "tests/core/crowd_ask.h"
 #include "tests/core/walker_open.h"
 
 #include "runtime/core/behave.h"
@@ -32,14 +33,6 @@ static ff_agent_behaviour behaviour_of(const ff_crowd *crowd, ff_agent agent)
     ff_agent_behaviour b;
     FF_ASSERT_OK(ff_crowd_agent_behaviour(crowd, agent, &b, &error), error);
     return b;
-}
-
-static ff_agent_state state_of(const ff_crowd *crowd, ff_agent agent)
-{
-    ff_error error;
-    ff_agent_state s;
-    FF_ASSERT_OK(ff_crowd_agent_state(crowd, agent, &s, &error), error);
-    return s;
 }
 
 static double angle_to(const ff_agent_state *s, ff_vec2 point)

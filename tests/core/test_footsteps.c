@@ -3,27 +3,11 @@
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
 #include "runtime/core/crowd_state.h"
-#include "tests/built_in_pack.h"
+#include "tests/built_in_open.h"
+#include "tests/core/crowd_ask.h"
 
 #define STEP (1.0 / 30.0)
 #define AGENTS 16
-
-static ff_pack *pack;
-
-static int open_pack(void **state)
-{
-    (void)state;
-    ff_error error;
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
-    return 0;
-}
-
-static int close_pack(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    return 0;
-}
 
 static ff_crowd_def footsteps_def(uint32_t agents)
 {
@@ -63,14 +47,6 @@ static void add_circle(ff_crowd *crowd, uint32_t count, double radius, bool mixe
         out[i] = add(crowd, at, ff_scale2(at, -1.0),
                      mixed && i % 2 == 1 ? FF_PLANNER_VELOCITY : FF_PLANNER_FOOTSTEPS);
     }
-}
-
-static ff_agent_state state_of(const ff_crowd *crowd, ff_agent agent)
-{
-    ff_agent_state at;
-    ff_error error;
-    FF_ASSERT_OK(ff_crowd_agent_state(crowd, agent, &at, &error), error);
-    return at;
 }
 
 static ff_plan_counts counts_of(const ff_crowd *crowd, ff_agent agent)

@@ -398,20 +398,6 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
         assert_memory_equal(&one[i].gait, &many[i].gait, sizeof one[i].gait);
 }
 
-static int set_up(void **state)
-{
-    static ff_walker_space walker;
-    walker = ff_walker_space_make(&ff_walker_grid_full);
-    *state = &walker;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    ff_walker_space_free(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -429,5 +415,5 @@ int main(void)
         cmocka_unit_test(full_turns_make_no_difference),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, open_full_walkers, close_walkers);
 }

@@ -115,16 +115,7 @@ static void levelled_postures_have_the_means_wanted_and_limbs_as_they_were(void 
 
 static int set_up(void **state)
 {
-    static ff_walker_space walker;
-    walker = ff_walker_space_make(&ff_walker_grid_small);
-    *state = &walker;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    ff_walker_space_free(*state);
-    return 0;
+    return open_walkers(state, &ff_walker_grid_small);
 }
 
 int main(void)
@@ -134,5 +125,5 @@ int main(void)
         cmocka_unit_test(a_heel_that_does_not_help_is_not_thrown_over),
         cmocka_unit_test(levelled_postures_have_the_means_wanted_and_limbs_as_they_were),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, close_walkers);
 }

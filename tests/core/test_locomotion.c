@@ -2,14 +2,13 @@
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
 #include "runtime/core/synth_state.h"
-#include "tests/built_in_pack.h"
+#include "tests/built_in_open.h"
 #include "tests/core/walker_pack.h"
 
 #define HZ 60
 #define DT (1.0 / HZ)
 #define MOST 1200 /* steps of a walk */
 
-static ff_pack *pack;
 static ff_blend_space *space;
 
 typedef struct step {
@@ -467,19 +466,16 @@ static void what_the_state_holds_is_all_there_is(void **state)
 
 static int set_up(void **state)
 {
-    (void)state;
     ff_error error;
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
+    open_pack(state);
     FF_ASSERT_OK(ff_blend_space_create(pack, &space, &error), error);
     return 0;
 }
 
 static int tear_down(void **state)
 {
-    (void)state;
     ff_blend_space_destroy(space);
-    ff_pack_close(pack);
-    return 0;
+    return close_pack(state);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* Which way of moving an agent wants (FbCrowd eq 1, read as its prose), and what a crowd makes of it. */
 #define _GNU_SOURCE
 #include "runtime/core/synth_choice.h"
-#include "tests/built_in_pack.h"
+#include "tests/built_in_open.h"
 
 static ff_choice_view far_from_all(void)
 {
@@ -144,8 +144,6 @@ static void time_is_that_to_whoever_or_whatever_is_met_first(void **state)
 
 /* ---------------------------------------------------------------------------------------------- in a crowd */
 
-static ff_pack *pack;
-
 /* People who meet in the middle, some of them in a hurry. */
 static ff_crowd *meeting(ff_synthesis synthesis, uint32_t threads)
 {
@@ -239,21 +237,6 @@ static void a_wrong_method_is_refused(void **state)
     ff_crowd_destroy(crowd);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    ff_error error;
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -268,5 +251,5 @@ int main(void)
         cmocka_unit_test(any_number_of_threads_walks_and_runs_alike),
         cmocka_unit_test(a_wrong_method_is_refused),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, open_pack, close_pack);
 }

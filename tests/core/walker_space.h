@@ -30,4 +30,24 @@ static inline void ff_walker_space_free(ff_walker_space *made)
     free(made->data);
 }
 
+/* Fixtures of a group: *state is a ff_walker_space. */
+static inline int open_walkers(void **state, const ff_walker_grid *grid)
+{
+    static ff_walker_space walkers;
+    walkers = ff_walker_space_make(grid);
+    *state = &walkers;
+    return 0;
+}
+
+static inline int open_full_walkers(void **state)
+{
+    return open_walkers(state, &ff_walker_grid_full);
+}
+
+static inline int close_walkers(void **state)
+{
+    ff_walker_space_free(*state);
+    return 0;
+}
+
 #endif

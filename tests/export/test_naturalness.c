@@ -3,9 +3,8 @@
 #include "runtime/core/base/random.h"
 #include "runtime/core/pack.h"
 #include "runtime/export/naturalness.h"
-#include "tests/built_in_pack.h"
+#include "tests/built_in_open.h"
 
-static ff_pack *pack;
 static ff_figure figure;
 static ff_pose_base base;
 
@@ -85,9 +84,8 @@ static void a_pose_pushed_aside_is_that_far_off(void **state)
 
 static int set_up(void **state)
 {
-    (void)state;
     ff_error error;
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
+    open_pack(state);
     FF_ASSERT_OK(ff_figure_from_pack(pack, &figure, &error), error);
     FF_ASSERT_OK(ff_pose_base_create(pack, &figure, &base, &error), error);
     return 0;
@@ -95,10 +93,8 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    (void)state;
     ff_pose_base_free(&base);
-    ff_pack_close(pack);
-    return 0;
+    return close_pack(state);
 }
 
 int main(void)

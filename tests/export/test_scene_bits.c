@@ -2,31 +2,21 @@
  * continued. FF_SCENE_STEPS says for how many steps (make soak: 10,000). */
 #define _GNU_SOURCE
 #include "runtime/export/scene_crowd.h"
-#include "tests/built_in_pack.h"
+#include "tests/built_in_open.h"
 
 #include <dirent.h>
 #include <stdio.h>
 
 #define STEPS_SHORT 160
 
-static ff_pack *pack;
 static uint64_t steps = STEPS_SHORT;
 
-static int open_pack(void **state)
+static int set_up(void **state)
 {
-    (void)state;
-    ff_error error;
     const char *wanted = getenv("FF_SCENE_STEPS");
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
+    open_pack(state);
     if (wanted) steps = strtoull(wanted, NULL, 10);
     return steps > 8 ? 0 : -1;
-}
-
-static int close_pack(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    return 0;
 }
 
 static ff_crowd *begin(const ff_scene *scene, uint32_t threads)
@@ -140,5 +130,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_scene_gives_the_same_bits_on_any_threads_and_saved_on_the_way),
     };
-    return cmocka_run_group_tests(tests, open_pack, close_pack);
+    return cmocka_run_group_tests(tests, set_up, close_pack);
 }

@@ -1,28 +1,11 @@
 /* What happens in the scenes with behaviour that come with the project, on the built-in pack: what their files promise. */
 #define _GNU_SOURCE
 #include "runtime/export/scene_crowd.h"
-#include "tests/built_in_pack.h"
+#include "tests/built_in_open.h"
 
 #include <stdio.h>
 
 enum { MOST = 64, NUMBERS = 256 };
-
-static ff_pack *pack;
-
-static int open_pack(void **state)
-{
-    (void)state;
-    ff_error error;
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &pack, &error), error);
-    return 0;
-}
-
-static int close_pack(void **state)
-{
-    (void)state;
-    ff_pack_close(pack);
-    return 0;
-}
 
 /* A scene under way. */
 typedef struct story {

@@ -34,6 +34,14 @@ static inline ff_rig rig_of(const ff_clip *clip)
     return rig;
 }
 
+static inline ff_rig rig_of_generated(const char *name)
+{
+    ff_clip clip = generated_clip(name);
+    ff_rig rig = rig_of(&clip);
+    ff_clip_free(&clip);
+    return rig;
+}
+
 /* The clip's motion; made owns the clip from now on. */
 static inline made_motion make_motion(const ff_rig *rig, ff_clip clip)
 {

@@ -1,6 +1,6 @@
 /* Correspondences: alignment against planted motions, the map against the plain formula, planted time warps found again,
  * order and spacing, the same bytes from any number of threads. */
-#include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/cycles_make.h"
 #include "tests/preprocess/standard.h"
 
 #include "preprocess/correspond_set.h"
@@ -218,9 +218,7 @@ static ff_example_set set_of(const char *const *names, int count, const ff_rig *
     ff_example_set set;
     for (int i = 0; i < count; ++i) {
         made[i] = make_motion(rig, generated_clip(names[i]));
-        FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, rig, &made[i].motion, &made[i].plants, 0,
-                                   names[i], &cycles[i], &error),
-                     error);
+        cycles[i] = cut_cycles(rig, &made[i]);
     }
     FF_ASSERT_OK(ff_examples_select(&standard()->cut.examples, rig, cycles, subject, count, &set, &error),
                  error);
@@ -235,9 +233,7 @@ static void examples_correspond_in_order_within_the_limits_on_any_number_of_thre
 {
     (void)state;
     const char *const names[] = {"walk-slow", "walk-normal", "walk-fast", "curve-left"};
-    ff_clip clip = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&clip);
-    ff_clip_free(&clip);
+    ff_rig rig = rig_of_generated("walk-normal");
     ff_example_set set = set_of(names, 4, &rig);
     ff_example *gait = calloc((size_t)set.count, sizeof *gait);
     assert_non_null(gait);
@@ -277,19 +273,14 @@ static void walks_at_two_speeds_agree_where_their_keys_do(void **state)
 {
     (void)state;
     const char *const names[] = {"walk-normal", "walk-fast"};
-    ff_clip clip = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&clip);
-    ff_clip_free(&clip);
+    ff_rig rig = rig_of_generated("walk-normal");
     ff_example e[2];
     ff_point_cycle cycle[2];
     ff_map_windows windows[2];
     ff_error error;
     for (int i = 0; i < 2; ++i) {
         made_motion made = make_motion(&rig, generated_clip(names[i]));
-        ff_cycles cycles;
-        FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, &rig, &made.motion, &made.plants, 0, names[i],
-                                   &cycles, &error),
-                     error);
+        ff_cycles cycles = cut_cycles(&rig, &made);
         e[i] = cycles.items[1];
         memset(&cycles.items[1], 0, sizeof cycles.items[1]);
         FF_ASSERT_OK(ff_point_cycle_from_example(&rig, &e[i], &cycle[i], &error), error);

@@ -1,20 +1,9 @@
 /* Gait examples: cycles of generated clips must have the rates the clips were made with, close, hold their feet still
  * while locked, and make a set that is the same to the left as to the right. */
-#include "tests/preprocess/motion_make.h"
-#include "tests/preprocess/standard.h"
+#include "tests/preprocess/cycles_make.h"
 
 #include "preprocess/derive.h"
 #include "preprocess/examples.h"
-
-static ff_cycles cut(const ff_rig *rig, const made_motion *made)
-{
-    ff_cycles cycles;
-    ff_error error;
-    FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, rig, &made->motion, &made->plants, 0, made->clip.name,
-                               &cycles, &error),
-                 error);
-    return cycles;
-}
 
 /* Where the ball of a foot is in the world when the root, moving at the example's rates, was at the origin at frame
  * 0; k may go beyond the cycle. */
@@ -67,14 +56,12 @@ static void check_walk(const ff_example *e, double slide)
 static void cycles_have_the_rates_the_clips_were_made_with(void **state)
 {
     (void)state;
-    ff_clip first = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&first);
-    ff_clip_free(&first);
+    ff_rig rig = rig_of_generated("walk-normal");
     for (int i = 0; i < ff_generator_count(); ++i) {
         ff_generator_info info = ff_generator_describe(i);
         if (!info.steady) continue;
         made_motion made = make_motion(&rig, generated_clip(info.name));
-        ff_cycles cycles = cut(&rig, &made);
+        ff_cycles cycles = cut_cycles(&rig, &made);
         if (cycles.count < 2) print_error("%s: %d cycles\n", info.name, cycles.count);
         assert_true(cycles.count >= 2);
         double scale = made.motion.scale;
@@ -95,11 +82,8 @@ static void cycles_have_the_rates_the_clips_were_made_with(void **state)
 static void hips_and_facing_are_on_the_root_on_average(void **state)
 {
     (void)state;
-    ff_clip clip = generated_clip("curve-left");
-    ff_rig rig = rig_of(&clip);
-    made_motion made = make_motion(&rig, clip);
-    ff_cycles cycles = cut(&rig, &made);
-    const ff_example *e = &cycles.items[0];
+    made_cycles of = make_cycles("curve-left");
+    const ff_example *e = &of.cycles.items[0];
     double ahead = 0.0, left = 0.0;
     for (int k = 0; k < e->frame_count; ++k) {
         ahead += e->hips[k].x / e->frame_count;
@@ -107,8 +91,7 @@ static void hips_and_facing_are_on_the_root_on_average(void **state)
     }
     FF_ASSERT_NEAR(ahead, 0.0, 0.005);
     FF_ASSERT_NEAR(left, 0.0, 0.005);
-    ff_cycles_free(&cycles);
-    made_motion_free(&made);
+    made_cycles_free(&of);
 }
 
 /* A captured head that hangs or tilts all the time was calibrated so: it is turned to look ahead, its motion stays. */
@@ -122,7 +105,7 @@ static void heads_look_ahead_however_they_were_captured(void **state)
         ff_quat *head = &made.motion.rotations[(size_t)k * FF_ROLE_JOINT_COUNT + FF_ROLE_HEAD];
         *head = ff_quat_mul(*head, ff_quat_exp(ff_v3(0.4, 0.0, 0.15)));
     }
-    ff_cycles cycles = cut(&rig, &made);
+    ff_cycles cycles = cut_cycles(&rig, &made);
     const ff_example *e = &cycles.items[0];
     double ahead = 0.0, tilt = 0.0;
     for (int k = 0; k < e->frame_count; ++k) {
@@ -141,14 +124,11 @@ static void heads_look_ahead_however_they_were_captured(void **state)
 static void a_mirrored_example_steps_with_the_other_foot_first(void **state)
 {
     (void)state;
-    ff_clip clip = generated_clip("curve-left");
-    ff_rig rig = rig_of(&clip);
-    made_motion made = make_motion(&rig, clip);
-    ff_cycles cycles = cut(&rig, &made);
-    const ff_example *e = &cycles.items[0];
+    made_cycles of = make_cycles("curve-left");
+    const ff_example *e = &of.cycles.items[0];
     ff_example once, twice;
     ff_error error;
-    FF_ASSERT_OK(ff_example_mirror(&rig, e, &once, &error), error);
+    FF_ASSERT_OK(ff_example_mirror(&of.rig, e, &once, &error), error);
     check_walk(&once, 0.03);
     FF_ASSERT_NEAR((double)once.record.turn_rate, -(double)e->record.turn_rate, 0.0);
     FF_ASSERT_NEAR((double)once.record.key[1], (double)e->record.key[3] - (double)e->record.key[2], 1e-6);
@@ -159,7 +139,7 @@ static void a_mirrored_example_steps_with_the_other_foot_first(void **state)
     const ff_pack_foot *other = &e->feet[2 * ((10 + shift) % e->frame_count) + FF_RIGHT];
     FF_ASSERT_NEAR((double)own->ball[0], (double)other->ball[0], 0.02);
     FF_ASSERT_NEAR((double)own->ball[1], -(double)other->ball[1], 0.01);
-    FF_ASSERT_OK(ff_example_mirror(&rig, &once, &twice, &error), error);
+    FF_ASSERT_OK(ff_example_mirror(&of.rig, &once, &twice, &error), error);
     assert_false(twice.record.flags & FF_EXAMPLE_MIRRORED);
     for (int k = 0; k < e->frame_count; ++k)
         for (int r = 0; r < FF_ROLE_JOINT_COUNT; ++r) {
@@ -170,25 +150,20 @@ static void a_mirrored_example_steps_with_the_other_foot_first(void **state)
         }
     ff_example_free(&once);
     ff_example_free(&twice);
-    ff_cycles_free(&cycles);
-    made_motion_free(&made);
+    made_cycles_free(&of);
 }
 
 static void a_walk_read_backwards_walks_backwards(void **state)
 {
     (void)state;
-    ff_clip clip = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&clip);
-    made_motion made = make_motion(&rig, clip);
-    ff_cycles cycles = cut(&rig, &made);
+    made_cycles of = make_cycles("walk-normal");
     ff_example back;
     ff_error error;
-    FF_ASSERT_OK(ff_example_reverse(&rig, &cycles.items[0], &back, &error), error);
-    FF_ASSERT_NEAR((double)back.record.v_forward, -(double)cycles.items[0].record.v_forward, 0.0);
+    FF_ASSERT_OK(ff_example_reverse(&of.rig, &of.cycles.items[0], &back, &error), error);
+    FF_ASSERT_NEAR((double)back.record.v_forward, -(double)of.cycles.items[0].record.v_forward, 0.0);
     check_walk(&back, 0.04);
     ff_example_free(&back);
-    ff_cycles_free(&cycles);
-    made_motion_free(&made);
+    made_cycles_free(&of);
 }
 
 static void check_knees(const ff_example *e, double least)
@@ -204,19 +179,16 @@ static void check_knees(const ff_example *e, double least)
 static void made_up_walks_hold_their_feet_and_bend_their_knees(void **state)
 {
     (void)state;
-    ff_clip clip = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&clip);
-    made_motion made = make_motion(&rig, clip);
-    ff_cycles cycles = cut(&rig, &made);
+    made_cycles of = make_cycles("walk-normal");
     ff_error error;
     const ff_derive_target targets[] = {{"step", 0.0, 0.0, 0.0, 1.1},   {"turn", 0.0, 0.0, 1.57, 0.95},
                                         {"side", 0.0, 0.55, 0.0, 0.85}, {"slow", 0.45, 0.0, 0.0, 1.3},
                                         {"curve", 0.7, 0.0, 1.5, 1.0},  {"mixed", 0.5, -0.3, -0.6, 1.1}};
     ff_gait_fit fit;
-    ff_gait_fit_make(&rig, &cycles.items[0], NULL, 0, &fit);
+    ff_gait_fit_make(&of.rig, &of.cycles.items[0], NULL, 0, &fit);
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; ++i) {
         ff_example e;
-        FF_ASSERT_OK(ff_derive_walk(&rig, &cycles.items[0], &fit, &targets[i], &e, &error), error);
+        FF_ASSERT_OK(ff_derive_walk(&of.rig, &of.cycles.items[0], &fit, &targets[i], &e, &error), error);
         check_walk(&e, 0.03);
         check_knees(&e, 0.1);
         double lift[2] = {0.0, 0.0};
@@ -228,13 +200,12 @@ static void made_up_walks_hold_their_feet_and_bend_their_knees(void **state)
         ff_example_free(&e);
     }
     ff_example idle;
-    FF_ASSERT_OK(ff_derive_idle(&rig, &cycles.items[0], &idle, &error), error);
+    FF_ASSERT_OK(ff_derive_idle(&of.rig, &of.cycles.items[0], &idle, &error), error);
     check_knees(&idle, 0.1);
     FF_ASSERT_NEAR((double)idle.feet[0].ball[2], 0.025, 0.001);
     FF_ASSERT_NEAR((double)idle.feet[0].ball[1], -(double)idle.feet[1].ball[1], 1e-4);
     ff_example_free(&idle);
-    ff_cycles_free(&cycles);
-    made_motion_free(&made);
+    made_cycles_free(&of);
 }
 
 static bool has_partner(const ff_example_set *set, const ff_example *e)
@@ -252,15 +223,12 @@ static bool has_partner(const ff_example_set *set, const ff_example *e)
 static void one_walking_clip_is_enough_for_a_set_that_turns_both_ways(void **state)
 {
     (void)state;
-    ff_clip clip = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&clip);
-    made_motion made = make_motion(&rig, clip);
-    ff_cycles cycles = cut(&rig, &made);
+    made_cycles of = make_cycles("walk-normal");
     int subject = 0;
     ff_example_set set;
     ff_error error;
-    FF_ASSERT_OK(ff_examples_select(&standard()->cut.examples, &rig, &cycles, &subject, 1, &set, &error),
-                 error);
+    FF_ASSERT_OK(
+        ff_examples_select(&standard()->cut.examples, &of.rig, &of.cycles, &subject, 1, &set, &error), error);
     assert_true(set.items[0].record.flags & FF_EXAMPLE_IDLE);
     bool in_place = false, left = false, back = false, side = false;
     for (int i = 0; i < set.count; ++i) {
@@ -274,8 +242,7 @@ static void one_walking_clip_is_enough_for_a_set_that_turns_both_ways(void **sta
     }
     assert_true(in_place && left && back && side);
     ff_example_set_free(&set);
-    ff_cycles_free(&cycles);
-    made_motion_free(&made);
+    made_cycles_free(&of);
 }
 
 static void the_person_with_most_walks_is_the_base(void **state)
@@ -285,12 +252,10 @@ static void the_person_with_most_walks_is_the_base(void **state)
     const int subject[] = {4, 4, 4, 2};
     made_motion made[4];
     ff_cycles cycles[4];
-    ff_clip first = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&first);
-    ff_clip_free(&first);
+    ff_rig rig = rig_of_generated("walk-normal");
     for (int i = 0; i < 4; ++i) {
         made[i] = make_motion(&rig, generated_clip(names[i]));
-        cycles[i] = cut(&rig, &made[i]);
+        cycles[i] = cut_cycles(&rig, &made[i]);
         for (int k = 0; k < cycles[i].count; ++k)
             cycles[i].items[k].clip = i;
     }
@@ -311,23 +276,20 @@ static void the_person_with_most_walks_is_the_base(void **state)
 static void clips_without_a_straight_walk_are_refused(void **state)
 {
     (void)state;
-    ff_clip clip = generated_clip("idle");
-    ff_rig rig = rig_of(&clip);
-    made_motion made = make_motion(&rig, clip);
-    ff_cycles cycles = cut(&rig, &made);
-    assert_int_equal(cycles.count, 0);
+    made_cycles of = make_cycles("idle");
+    assert_int_equal(of.cycles.count, 0);
     ff_error error;
-    FF_ASSERT_OK(ff_cycles_cut_idle(&standard()->cut.cycles, &rig, &made.motion, &made.plants, 0, "idle",
-                                    &cycles, &error),
+    FF_ASSERT_OK(ff_cycles_cut_idle(&standard()->cut.cycles, &of.rig, &of.made.motion, &of.made.plants, 0,
+                                    "idle", &of.cycles, &error),
                  error);
-    assert_int_equal(cycles.count, 1);
-    FF_ASSERT_BELOW((double)cycles.items[0].record.seam, 0.01);
+    assert_int_equal(of.cycles.count, 1);
+    FF_ASSERT_BELOW((double)of.cycles.items[0].record.seam, 0.01);
     int subject = 0;
     ff_example_set set;
-    assert_int_equal(ff_examples_select(&standard()->cut.examples, &rig, &cycles, &subject, 1, &set, &error),
-                     FF_ERR_NO_DATA);
-    ff_cycles_free(&cycles);
-    made_motion_free(&made);
+    assert_int_equal(
+        ff_examples_select(&standard()->cut.examples, &of.rig, &of.cycles, &subject, 1, &set, &error),
+        FF_ERR_NO_DATA);
+    made_cycles_free(&of);
 }
 
 int main(void)

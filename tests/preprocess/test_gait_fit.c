@@ -1,6 +1,6 @@
 /* The semi-procedural clip: it is its own clip at its own speed, follows other walks at theirs, and its feet stand still
  * at any rates. */
-#include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/cycles_make.h"
 #include "tests/preprocess/standard.h"
 
 #include "preprocess/cycles.h"
@@ -21,11 +21,7 @@ typedef struct fixture {
 static ff_example walk_of(const ff_rig *rig, const char *name)
 {
     made_motion made = make_motion(rig, generated_clip(name));
-    ff_cycles cycles;
-    ff_error error;
-    FF_ASSERT_OK(
-        ff_cycles_cut(&standard()->cut.cycles, rig, &made.motion, &made.plants, 0, name, &cycles, &error),
-        error);
+    ff_cycles cycles = cut_cycles(rig, &made);
     assert_true(cycles.count > 1);
     ff_example walk = cycles.items[1];
     memset(&cycles.items[1], 0, sizeof cycles.items[1]);
@@ -37,9 +33,7 @@ static ff_example walk_of(const ff_rig *rig, const char *name)
 static int set_up(void **state)
 {
     static fixture f;
-    ff_clip clip = generated_clip(names[0]);
-    f.rig = rig_of(&clip);
-    ff_clip_free(&clip);
+    f.rig = rig_of_generated(names[0]);
     const ff_example *walks[WALKS];
     for (int i = 0; i < WALKS; ++i) {
         f.walk[i] = walk_of(&f.rig, names[i]);

@@ -195,9 +195,7 @@ static void invent(invented *m, bool cyclic)
 
 static ff_rig any_rig(void)
 {
-    ff_clip clip = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&clip);
-    ff_clip_free(&clip);
+    ff_rig rig = rig_of_generated("walk-normal");
     return rig;
 }
 

@@ -1,26 +1,15 @@
 /* Sets of clips without a whole straight walking cycle: one step and its mirror image make one, symmetric to the bit and
  * with the clip's own rates; then a cycle that closes badly; and when nothing will do, the message says what there is. */
-#include "tests/preprocess/motion_make.h"
-#include "tests/preprocess/standard.h"
+#include "tests/preprocess/cycles_make.h"
 
 #include "preprocess/example_judge.h"
 #include "preprocess/examples.h"
-
-static ff_cycles cut(const ff_rig *rig, const made_motion *made)
-{
-    ff_cycles cycles;
-    ff_error error;
-    FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, rig, &made->motion, &made->plants, 0, made->clip.name,
-                               &cycles, &error),
-                 error);
-    return cycles;
-}
 
 /* Only half cycles. */
 static ff_cycles cut_half(const ff_rig *rig, const made_motion *made)
 {
     ff_error error;
-    ff_cycles cycles = cut(rig, made);
+    ff_cycles cycles = cut_cycles(rig, made);
     for (int i = 0; i < cycles.count; ++i)
         ff_example_free(&cycles.items[i]);
     cycles.count = 0;
@@ -52,7 +41,7 @@ static void a_step_and_its_mirror_image_are_a_symmetric_walk_of_the_same_rates(v
         ff_clip clip = generated_clip(names[n]);
         ff_rig rig = rig_of(&clip);
         made_motion made = make_motion(&rig, clip);
-        ff_cycles whole = cut(&rig, &made), half = cut_half(&rig, &made);
+        ff_cycles whole = cut_cycles(&rig, &made), half = cut_half(&rig, &made);
         assert_true(half.count >= 2 * whole.count - 1); /* from either foot */
         for (int i = 0; i < half.count; ++i) {
             ff_example *e = &half.items[i], other;
@@ -95,7 +84,7 @@ static void half_cycles_are_taken_when_no_whole_one_will_do_and_only_then(void *
     ff_rig rig = rig_of(&clip);
     made_motion made = make_motion(&rig, clip);
     for (int with_whole = 0; with_whole < 2; ++with_whole) {
-        ff_cycles cycles = with_whole ? cut(&rig, &made) : cut_half(&rig, &made);
+        ff_cycles cycles = with_whole ? cut_cycles(&rig, &made) : cut_half(&rig, &made);
         ff_example_set set;
         ff_error error;
         if (with_whole)
@@ -120,26 +109,22 @@ static void half_cycles_are_taken_when_no_whole_one_will_do_and_only_then(void *
 static void the_best_of_cycles_that_close_badly_is_taken_last(void **state)
 {
     (void)state;
-    ff_clip clip = generated_clip("walk-normal");
-    ff_rig rig = rig_of(&clip);
-    made_motion made = make_motion(&rig, clip);
-    ff_cycles cycles = cut(&rig, &made);
+    made_cycles of = make_cycles("walk-normal");
     ff_example_set set;
     ff_error error;
-    for (int i = 0; i < cycles.count; ++i) { /* as if closing had moved joints this far */
-        cycles.items[i].loop.moved = 0.05f + 0.01f * (float)i;
-        cycles.items[i].record.seam = 0.02f + 0.01f * (float)i;
+    for (int i = 0; i < of.cycles.count; ++i) { /* as if closing had moved joints this far */
+        of.cycles.items[i].loop.moved = 0.05f + 0.01f * (float)i;
+        of.cycles.items[i].record.seam = 0.02f + 0.01f * (float)i;
     }
     char best[96];
-    memcpy(best, cycles.items[0].name, sizeof best);
-    FF_ASSERT_OK(choose(&rig, &cycles, &set, &error), error);
+    memcpy(best, of.cycles.items[0].name, sizeof best);
+    FF_ASSERT_OK(choose(&of.rig, &of.cycles, &set, &error), error);
     assert_int_equal(set.level, FF_LEVEL_LOOSE);
     assert_string_equal(set.items[set.gait.gait.example].name, best);
     assert_true(set.items[set.gait.gait.example].record.flags & FF_EXAMPLE_LOOSE);
     assert_int_equal(set.gait.gait.walks, 0); /* no law is fitted to such */
     ff_example_set_free(&set);
-    ff_cycles_free(&cycles);
-    made_motion_free(&made);
+    made_cycles_free(&of);
 }
 
 static void what_there_is_instead_of_a_walk_is_told(void **state)
@@ -154,18 +139,14 @@ static void what_there_is_instead_of_a_walk_is_told(void **state)
                  {"strafe-left", "go aside", 0.0f},
                  {"walk-normal", "closing moves a joint by cm 30.0, at most 10.0", 0.3f}};
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
-        ff_clip clip = generated_clip(cases[n].clip);
-        ff_rig rig = rig_of(&clip);
-        made_motion made = make_motion(&rig, clip);
-        ff_cycles cycles = cut(&rig, &made);
+        made_cycles of = make_cycles(cases[n].clip);
         ff_example_set set;
         ff_error error;
-        for (int i = 0; i < cycles.count; ++i)
-            cycles.items[i].loop.moved = fmaxf(cycles.items[i].loop.moved, cases[n].moved);
-        assert_int_equal(choose(&rig, &cycles, &set, &error), FF_ERR_NO_DATA);
+        for (int i = 0; i < of.cycles.count; ++i)
+            of.cycles.items[i].loop.moved = fmaxf(of.cycles.items[i].loop.moved, cases[n].moved);
+        assert_int_equal(choose(&of.rig, &of.cycles, &set, &error), FF_ERR_NO_DATA);
         if (!strstr(error.message, cases[n].says)) fail_msg("%s: %s", cases[n].clip, error.message);
-        ff_cycles_free(&cycles);
-        made_motion_free(&made);
+        made_cycles_free(&of);
     }
 }
 

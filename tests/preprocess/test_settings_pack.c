@@ -1,7 +1,7 @@
 /* Every setting of what is made from all clips together changes the result; see test_settings_matter.c. */
 #define _GNU_SOURCE
 #include "tests/preprocess/build_folder.h"
-#include "tests/preprocess/motion_make.h"
+#include "tests/preprocess/cycles_make.h"
 #include "tests/preprocess/setting_rows.h"
 
 #include "preprocess/correspond_set.h"
@@ -42,9 +42,7 @@ static ff_example_set choose(const ff_example_settings *settings)
     ff_cycles cycles[CLIPS];
     const int subject[CLIPS] = {0};
     for (int i = 0; i < CLIPS; ++i) {
-        FF_ASSERT_OK(ff_cycles_cut(&standard()->cut.cycles, &rig, &made[i].motion, &made[i].plants, 0,
-                                   names[i], &cycles[i], &error),
-                     error);
+        cycles[i] = cut_cycles(&rig, &made[i]);
         for (int k = 0; k < cycles[i].count; ++k)
             cycles[i].items[k].clip = i;
     }
