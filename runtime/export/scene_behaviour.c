@@ -156,12 +156,20 @@ ff_status ff_scene_machine_read(const ff_json *json, const json_t *object,
 
 /* ---------------------------------------------------------------------------------------------- numbers */
 
-ff_status ff_read_object(const ff_behaviour_reading *r, const json_t *object, const char *key,
-                         const json_t **out)
+ff_status ff_read_each(const ff_behaviour_reading *r, const char *key, const char *what, ff_read_named *read)
 {
-    *out = json_object_get(object, key);
-    if (!*out || json_is_object(*out)) return FF_OK;
-    return ff_json_fail_key(r->json, object, key, r->error, "%s is an object", key);
+    json_t *all = json_object_get(r->json->root, key), *value;
+    const char *name;
+    ff_status status = FF_OK;
+    if (all && !json_is_object(all))
+        return ff_json_fail_key(r->json, r->json->root, key, r->error, "%s is an object", key);
+    json_object_foreach(all, name, value)
+    {
+        if (status == FF_OK && what && !json_is_object(value))
+            return ff_json_fail_key(r->json, all, name, r->error, "%s", what);
+        if (status == FF_OK) status = read(r, all, name, value);
+    }
+    return status;
 }
 
 ff_status ff_read_metres(const ff_behaviour_reading *r, const json_t *value, const json_t *within,

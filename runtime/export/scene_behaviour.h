@@ -66,9 +66,12 @@ ff_status ff_read_metres(const ff_behaviour_reading *r, const json_t *value, con
 /* A number, [low, high], or {"mean": m, "deviation": d}; each of it in [low, high]. */
 ff_status ff_read_amount(const ff_behaviour_reading *r, const json_t *value, const json_t *within,
                          const char *what, double low, double high, ff_amount *out);
-/* A member that is an object, or NULL when the key is absent. */
-ff_status ff_read_object(const ff_behaviour_reading *r, const json_t *object, const char *key,
-                         const json_t **out);
+/* One named thing of a section of the scene: its value there under its name. */
+typedef ff_status ff_read_named(const ff_behaviour_reading *r, const json_t *all, const char *name,
+                                const json_t *value);
+/* Read everything in the section under key, in the file's order; without the section there is nothing to do. With what
+ * ("a region is {...}") each must be an object, and that is said of one that is not. */
+ff_status ff_read_each(const ff_behaviour_reading *r, const char *key, const char *what, ff_read_named *read);
 
 /* A name for a record: not empty, and short enough. at: where to complain. */
 ff_status ff_take_name(const ff_behaviour_reading *r, const json_t *at, const char *name,

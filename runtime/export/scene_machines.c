@@ -299,8 +299,10 @@ static ff_status name_states(const ff_behaviour_reading *r, const json_t *states
     return status;
 }
 
-static ff_status read_machine(const ff_behaviour_reading *r, const char *name, const json_t *object)
+static ff_status read_machine(const ff_behaviour_reading *r, const json_t *all, const char *name,
+                              const json_t *object)
 {
+    (void)all;
     const json_t *states = json_object_get(object, "states"), *start = json_object_get(object, "start");
     uint32_t first, index;
     ff_status status = ff_json_only_keys(r->json, object, machine_keys, r->error);
@@ -329,17 +331,6 @@ static ff_status read_machine(const ff_behaviour_reading *r, const char *name, c
 
 ff_status ff_read_machines(const ff_behaviour_reading *r)
 {
-    const json_t *machines;
-    const char *name;
-    json_t *value;
-    ff_status status = ff_read_object(r, r->json->root, "behaviours", &machines);
-    if (status != FF_OK || !machines) return status;
-    json_object_foreach((json_t *)machines, name, value)
-    {
-        if (status == FF_OK && !json_is_object(value))
-            return ff_json_fail_key(r->json, machines, name, r->error, "a behaviour is an object");
-        TRY(read_machine(r, name, value));
-    }
-    return status;
+    return ff_read_each(r, "behaviours", "a behaviour is an object", read_machine);
 }
 #undef TRY

@@ -94,38 +94,28 @@ static ff_status read_set(const ff_behaviour_reading *r, const json_t *sets, con
 
 ff_status ff_read_goals(const ff_behaviour_reading *r)
 {
-    const json_t *sets;
-    const char *name;
-    json_t *value;
-    ff_status status = ff_read_object(r, r->json->root, "goals", &sets);
-    if (status != FF_OK || !sets) return status;
-    json_object_foreach((json_t *)sets, name, value) TRY(read_set(r, sets, name, value));
-    return status;
+    return ff_read_each(r, "goals", NULL, read_set);
 }
 
 /* ----------------------------------------------------------------------------------------------- others */
 
+static ff_status read_region(const ff_behaviour_reading *r, const json_t *all, const char *name,
+                             const json_t *value)
+{
+    (void)all;
+    uint32_t index;
+    ff_status status = ff_json_only_keys(r->json, value, region_keys, r->error);
+    TRY(ff_grow_list(r, &r->out->regions, sizeof(ff_region_def), 1, &index));
+    if (status != FF_OK) return status;
+    ff_region_def *region = (ff_region_def *)r->out->regions.data + index;
+    TRY(ff_take_name(r, value, name, region->name));
+    TRY(ff_read_region(r, value, &region->place));
+    return status;
+}
+
 ff_status ff_read_regions(const ff_behaviour_reading *r)
 {
-    const json_t *regions;
-    const char *name;
-    json_t *value;
-    ff_status status = ff_read_object(r, r->json->root, "regions", &regions);
-    if (status != FF_OK || !regions) return status;
-    json_object_foreach((json_t *)regions, name, value)
-    {
-        uint32_t index;
-        if (status == FF_OK && !json_is_object(value))
-            return ff_json_fail_key(r->json, regions, name, r->error,
-                                    "a region is {\"box\": [x1, z1, x2, z2]}");
-        TRY(ff_json_only_keys(r->json, value, region_keys, r->error));
-        TRY(ff_grow_list(r, &r->out->regions, sizeof(ff_region_def), 1, &index));
-        if (status != FF_OK) return status;
-        ff_region_def *region = (ff_region_def *)r->out->regions.data + index;
-        TRY(ff_take_name(r, value, name, region->name));
-        TRY(ff_read_region(r, value, &region->place));
-    }
-    return status;
+    return ff_read_each(r, "regions", "a region is {\"box\": [x1, z1, x2, z2]}", read_region);
 }
 
 /* [["walk", 20], ["stop", 8]] */
@@ -156,51 +146,47 @@ static ff_status read_phases(const ff_behaviour_reading *r, const json_t *signal
     return status;
 }
 
+static ff_status read_signal(const ff_behaviour_reading *r, const json_t *all, const char *name,
+                             const json_t *value)
+{
+    (void)all;
+    uint32_t index;
+    ff_status status = ff_json_only_keys(r->json, value, signal_keys, r->error);
+    TRY(ff_grow_list(r, &r->out->signals, sizeof(ff_signal_def), 1, &index));
+    if (status != FF_OK) return status;
+    ff_signal_def *signal = (ff_signal_def *)r->out->signals.data + index;
+    TRY(ff_take_name(r, value, name, signal->name));
+    TRY(ff_json_number(r->json, value, "passed", 0.0, 1e5, &signal->passed, r->error));
+    TRY(read_phases(r, value, index));
+    return status;
+}
+
 ff_status ff_read_signals(const ff_behaviour_reading *r)
 {
-    const json_t *signals;
-    const char *name;
-    json_t *value;
-    ff_status status = ff_read_object(r, r->json->root, "signals", &signals);
-    if (status != FF_OK || !signals) return status;
-    json_object_foreach((json_t *)signals, name, value)
-    {
-        uint32_t index;
-        if (status == FF_OK && !json_is_object(value))
-            return ff_json_fail_key(r->json, signals, name, r->error,
-                                    "a signal is {\"phases\": [[name, seconds]]}");
-        TRY(ff_json_only_keys(r->json, value, signal_keys, r->error));
-        TRY(ff_grow_list(r, &r->out->signals, sizeof(ff_signal_def), 1, &index));
-        if (status != FF_OK) return status;
-        ff_signal_def *signal = (ff_signal_def *)r->out->signals.data + index;
-        TRY(ff_take_name(r, value, name, signal->name));
-        TRY(ff_json_number(r->json, value, "passed", 0.0, 1e5, &signal->passed, r->error));
-        TRY(read_phases(r, value, index));
-    }
+    return ff_read_each(r, "signals", "a signal is {\"phases\": [[name, seconds]]}", read_signal);
+}
+
+static ff_status read_variable(const ff_behaviour_reading *r, const json_t *all, const char *name,
+                               const json_t *value)
+{
+    (void)value;
+    uint32_t index;
+    double start = 0.0;
+    ff_status status = ff_json_number(r->json, all, name, -1e6, 1e6, &start, r->error);
+    TRY(ff_grow_list(r, &r->out->variables, sizeof(ff_variable_def), 1, &index));
+    if (status != FF_OK) return status;
+    ff_variable_def *variable = (ff_variable_def *)r->out->variables.data + index;
+    variable->start = start;
+    TRY(ff_take_name(r, all, name, variable->name));
     return status;
 }
 
 ff_status ff_read_variables(const ff_behaviour_reading *r)
 {
-    const json_t *variables;
-    const char *name;
-    json_t *value;
-    ff_status status = ff_read_object(r, r->json->root, "variables", &variables);
-    if (status != FF_OK || !variables) return status;
+    const json_t *variables = json_object_get(r->json->root, "variables");
     if (json_object_size(variables) > FF_VARIABLES)
         return ff_json_fail(r->json, variables, r->error, "%zu variables; there can be %d",
                             json_object_size(variables), FF_VARIABLES);
-    json_object_foreach((json_t *)variables, name, value)
-    {
-        uint32_t index;
-        double start = 0.0;
-        TRY(ff_json_number(r->json, variables, name, -1e6, 1e6, &start, r->error));
-        TRY(ff_grow_list(r, &r->out->variables, sizeof(ff_variable_def), 1, &index));
-        if (status != FF_OK) return status;
-        ff_variable_def *variable = (ff_variable_def *)r->out->variables.data + index;
-        variable->start = start;
-        TRY(ff_take_name(r, variables, name, variable->name));
-    }
-    return status;
+    return ff_read_each(r, "variables", NULL, read_variable);
 }
 #undef TRY
