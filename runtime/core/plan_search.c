@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 199309L
 #include "runtime/core/plan_search.h"
 
+#include <string.h>
+
 #define HOLD 0.5f /* s, of waiting at a time */
 #define LATE 1.5f /* s past the time horizon in which a stop may be found */
 
@@ -64,10 +66,6 @@ static bool look_at(ff_search *s, uint32_t index)
         return true;
     }
     if (n->time > s->ahead + LATE) return false;
-    /* The nearest to the goal so far that one can stop from. */
-    const ff_search_node *part = s->part == FF_SEARCH_NONE ? NULL : &s->memory->nodes[s->part];
-    if (s->best == FF_SEARCH_NONE && n->depth > 0 && (!part || n->h < part->h) && ff_search_is_safe(s, index))
-        s->part = index;
     expand(s, index);
     return false;
 }
@@ -98,6 +96,30 @@ static bool improve(ff_search *s)
         look_at(s, index);
     }
     return true;
+}
+
+/* Of the nodes that were expanded, the nearest to the goal that one can stop from: what there is of a plan when the search came
+ * to no end. Looked for then only, as nearly all searches do. */
+static uint32_t find_part(ff_search *s)
+{
+    uint64_t *heap = s->memory->heap;
+    uint32_t count = 0;
+    for (uint32_t i = 1; i < s->count; ++i) {
+        const ff_search_node *n = &s->memory->nodes[i];
+        if (!(n->flags & FF_NODE_CLOSED)) continue;
+        uint32_t bits;
+        memcpy(&bits, &n->h, sizeof bits);
+        heap[count++] = (uint64_t)bits << 32 | i;
+    }
+    for (uint32_t i = count / 2; i-- > 0;)
+        ff_search_sift_down(heap, count, i);
+    while (count > 0) {
+        uint32_t index = ff_search_key_node(heap[0]);
+        if (ff_search_is_safe(s, index)) return index;
+        heap[0] = heap[--count];
+        if (count > 0) ff_search_sift_down(heap, count, 0);
+    }
+    return ff_search_is_safe(s, 0) ? 0 : FF_SEARCH_NONE;
 }
 
 /* Lower bound of all that is left: what inflation the best plan is within. */
@@ -155,7 +177,6 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
                    .options = *options,
                    .memory = scratch,
                    .best = FF_SEARCH_NONE,
-                   .part = FF_SEARCH_NONE,
                    .best_cost = INFINITY};
     for (uint32_t i = 0; i < FF_SEARCH_STANCES; ++i)
         s.stance_of[i] = FF_SEARCH_NONE;
@@ -180,8 +201,7 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
     ff_search_push(&s, 0);
     ff_search_follow(&s, current, step);
     search_on(&s);
-    uint32_t last = s.best != FF_SEARCH_NONE ? s.best : s.part;
-    if (s.best == FF_SEARCH_NONE && last == FF_SEARCH_NONE && ff_search_is_safe(&s, 0)) last = 0;
+    uint32_t last = s.best != FF_SEARCH_NONE ? s.best : find_part(&s);
     if (last == FF_SEARCH_NONE) return s.result;
     const ff_search_node *n = &scratch->nodes[last];
     if (s.best == FF_SEARCH_NONE) s.result.outcome = FF_PLAN_PART;

@@ -64,7 +64,7 @@ typedef struct ff_search {
     uint32_t stance_of[FF_SEARCH_STANCES]; /* nodes of memory->stance, or FF_SEARCH_NONE */
     float inflation, latest;               /* latest: s from the first knot that a node may end at */
     float ahead;                           /* s: time of enough, or INFINITY */
-    uint32_t best, part;                   /* the plan so far ends here; else the nearest to the goal, safe */
+    uint32_t best;                         /* the plan so far ends here, or FF_SEARCH_NONE */
     float best_cost;
     uint32_t first_best; /* nodes expanded when there was a plan */
     ff_plan_result result;

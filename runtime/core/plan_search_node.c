@@ -111,31 +111,45 @@ bool ff_search_is_free(ff_search *s, ff_search_node *n)
     return free_way;
 }
 
-/* Does one come to stand from the node, by its k-th way of stopping, and may stand there for ever? */
-static bool stops_by(ff_search *s, const ff_search_node *from, uint32_t k)
+/* Is the first action of its k-th way of stopping free? Several ways begin alike. */
+static bool stop_begins(ff_search *s, uint32_t index, uint32_t k, uint8_t known[FF_SET_STOPS_MAX])
 {
-    const ff_set_action *a = &s->set->actions[from->action];
-    const ff_set_stop *stop = &s->set->stops[a->first_stop + k];
+    const ff_set_action *a = &s->set->actions[s->memory->nodes[index].action];
+    const ff_set_stop *stops = &s->set->stops[a->first_stop];
+    enum { FREE = 1, TAKEN };
+    for (uint32_t i = 0; i < k; ++i)
+        if (stops[i].next[0] == stops[k].next[0]) return (known[k] = known[i]) == FREE;
+    const ff_set_next *next = &s->set->next[a->first_next + stops[k].next[0]];
+    known[k] = ff_stance_free(&s->memory->sight, stance_of(s, index), next, NULL) ? FREE : TAKEN;
+    return known[k] == FREE;
+}
+
+/* May one who has come to the node stand there for ever? */
+static bool may_stand(ff_search *s, const ff_search_node *n)
+{
+    ff_search_stand_at(s, n, &s->memory->step);
+    return ff_stance_waits(&s->memory->sight, &s->memory->step, INFINITY);
+}
+
+/* Does one come to stand from the node, by its k-th way of stopping, and may stand there for ever? */
+static bool stops_by(ff_search *s, uint32_t index, uint32_t k, uint8_t known[FF_SET_STOPS_MAX])
+{
     ff_plan_scratch *m = s->memory;
-    uint32_t mark = s->count;
-    ff_search_node here = *from;
-    for (int i = 0; i < 2 && stop->next[i] != FF_SET_NO_STOP; ++i) {
-        uint32_t at = ff_search_add(s, &here);
-        if (at == FF_SEARCH_NONE) {
-            s->count = mark;
-            return false;
-        }
+    const ff_set_stop *stop =
+        &s->set->stops[s->set->actions[m->nodes[index].action].first_stop + k];
+    if (!stop_begins(s, index, k, known)) return false;
+    ff_search_node here = ff_search_child(s, index, stop->next[0]);
+    if (stop->next[1] != FF_SET_NO_STOP) {
+        uint32_t mark = s->count, at = ff_search_add(s, &here);
+        if (at == FF_SEARCH_NONE) return false;
         ff_search_stand_at(s, &here, &m->step);
-        const ff_set_next *next = &s->set->next[s->set->actions[here.action].first_next + stop->next[i]];
-        if (!ff_stance_free(&m->sight, &m->step, next, NULL)) {
-            s->count = mark;
-            return false;
-        }
-        here = ff_search_child(s, at, stop->next[i]);
+        const ff_set_next *next = &s->set->next[s->set->actions[here.action].first_next + stop->next[1]];
+        bool free_way = ff_stance_free(&m->sight, &m->step, next, NULL);
+        if (free_way) here = ff_search_child(s, at, stop->next[1]);
+        s->count = mark;
+        if (!free_way) return false;
     }
-    s->count = mark;
-    ff_search_stand_at(s, &here, &m->step);
-    return ff_stance_waits(&m->sight, &m->step, INFINITY);
+    return may_stand(s, &here);
 }
 
 /* Can one always stop from here? Found out once per node. */
@@ -145,14 +159,11 @@ bool ff_search_is_safe(ff_search *s, uint32_t index)
     if (!s->options.safe) return true;
     if (n->flags & (FF_NODE_SAFE | FF_NODE_UNSAFE)) return (n->flags & FF_NODE_SAFE) != 0;
     const ff_set_action *a = &s->set->actions[n->action];
-    bool safe = false;
+    uint8_t known[FF_SET_STOPS_MAX];
     n->stop = FF_SET_NO_STOP;
-    if (a->flags & FF_SET_TO_STANDING) {
-        ff_search_stand_at(s, n, &s->memory->step);
-        safe = ff_stance_waits(&s->memory->sight, &s->memory->step, INFINITY);
-    }
+    bool safe = (a->flags & FF_SET_TO_STANDING) && may_stand(s, n);
     for (uint32_t k = 0; k < a->stop_count && !safe; ++k) {
-        safe = stops_by(s, n, k);
+        safe = stops_by(s, index, k, known);
         if (safe) n->stop = (uint16_t)k;
     }
     n->flags |= safe ? FF_NODE_SAFE : FF_NODE_UNSAFE;
