@@ -46,7 +46,7 @@ static bool track_fits(const ff_track *track)
             !floats_fit(knot->y, FF_TRACK_LANES, FAR) || !floats_fit(&track->radius[i], 1, FAR))
             return false;
     }
-    for (uint32_t c = 0; c * FF_TRACK_CHUNK < track->count; ++c)
+    for (uint32_t c = 0; c < ff_track_rooms(track); ++c)
         if (!floats_fit(&track->room[c].low_a, 4, 2.0 * FAR)) return false;
     return true;
 }

@@ -24,7 +24,7 @@ bool ff_track_meets(const ff_track *track, double from, double seconds, const ff
 ff_bounds ff_track_bounds(const ff_track *track)
 {
     ff_bounds all = FF_BOUNDS_NONE;
-    for (uint32_t c = 0; c * FF_TRACK_CHUNK < track->count; ++c) {
+    for (uint32_t c = 0; c < ff_track_rooms(track); ++c) {
         const ff_track_room *room = &track->room[c];
         all.low = ff_v2(ff_min(all.low.a, (double)room->low_a), ff_min(all.low.b, (double)room->low_b));
         all.high = ff_v2(ff_max(all.high.a, (double)room->high_a), ff_max(all.high.b, (double)room->high_b));

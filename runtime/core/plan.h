@@ -93,7 +93,8 @@ double ff_action_blend(const ff_action_set *set, uint32_t action);
 /* --------------------------------------------------------------------------------------------------- tracks */
 
 #define FF_TRACK_STEP (1.0 / 15.0) /* s: knot k is at k * FF_TRACK_STEP */
-enum { FF_TRACK_KNOTS_MAX = 160, FF_TRACK_LANES = FF_COLLIDER_COUNT, FF_TRACK_CHUNK = 8 };
+enum { FF_TRACK_KNOTS_MAX = 160, FF_TRACK_LANES = FF_COLLIDER_COUNT, FF_TRACK_CHUNK = 4 };
+enum { FF_TRACK_ROOMS = FF_TRACK_KNOTS_MAX / FF_TRACK_CHUNK + 1 };
 
 /* Horizontal radii of the colliders, m (algorithms A.9; root: footstep study, section 2). */
 extern const float ff_collider_radius[FF_COLLIDER_COUNT];
@@ -105,10 +106,17 @@ typedef struct ff_knot {
     float a[FF_TRACK_LANES], b[FF_TRACK_LANES], y[FF_TRACK_LANES];
 } ff_knot;
 
-/* Room (root and radius) that knots [8 i, 8 i + 8] take up, relative to the origin. */
+/* Room (root and radius) that a track takes up in a chunk of time, relative to its origin. Chunk n is from knot 4 n to knot 4 n + 4: the same
+ * moments for everybody. */
 typedef struct ff_track_room {
     float low_a, low_b, high_a, high_b;
 } ff_track_room;
+
+/* The chunk that a knot is in. */
+static inline int64_t ff_knot_chunk(int64_t knot)
+{
+    return (knot >= 0 ? knot : knot - (FF_TRACK_CHUNK - 1)) / FF_TRACK_CHUNK;
+}
 
 /* Where a plan's owner will be. Plain data without pointers. */
 typedef struct ff_track {
@@ -116,10 +124,17 @@ typedef struct ff_track {
     int64_t first;  /* number of the first knot */
     uint32_t count; /* >= 1; before the first and after the last knot all stays as it is there */
     uint32_t reserved;
-    ff_track_room room[FF_TRACK_KNOTS_MAX / FF_TRACK_CHUNK];
-    float radius[FF_TRACK_KNOTS_MAX]; /* about the root, holds all colliders */
+    ff_track_room room[FF_TRACK_ROOMS]; /* of the first knot's chunk and those after it */
+    float radius[FF_TRACK_KNOTS_MAX];   /* about the root, holds all colliders */
     ff_knot knots[FF_TRACK_KNOTS_MAX];
 } ff_track;
+
+/* How many rooms of it there are; the last one is for ever. */
+static inline uint32_t ff_track_rooms(const ff_track *track)
+{
+    int64_t last = track->first + (int64_t)track->count - 1;
+    return (uint32_t)(ff_knot_chunk(last) - ff_knot_chunk(track->first)) + 1;
+}
 
 /* The track of a plan from a time on (from the knot at or before it). */
 void ff_plan_track(const ff_action_set *set, const ff_plan *plan, double from, ff_track *out);

@@ -135,8 +135,7 @@ static bool may_stand(ff_search *s, const ff_search_node *n)
 static bool stops_by(ff_search *s, uint32_t index, uint32_t k, uint8_t known[FF_SET_STOPS_MAX])
 {
     ff_plan_scratch *m = s->memory;
-    const ff_set_stop *stop =
-        &s->set->stops[s->set->actions[m->nodes[index].action].first_stop + k];
+    const ff_set_stop *stop = &s->set->stops[s->set->actions[m->nodes[index].action].first_stop + k];
     if (!stop_begins(s, index, k, known)) return false;
     ff_search_node here = ff_search_child(s, index, stop->next[0]);
     if (stop->next[1] != FF_SET_NO_STOP) {

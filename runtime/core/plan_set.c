@@ -78,7 +78,8 @@ static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_act
             low_b = fminf(low_b, p->b), high_b = fmaxf(high_b, p->b);
         }
     for (uint32_t k = 0; k < a->knots; ++k)
-        set->about[a->first_knot + k] = ff_knot_radius(&to[k]);
+        set->roots[a->first_knot + k] =
+            (ff_set_root){to[k].a[FF_COLLIDER_ROOT], to[k].b[FF_COLLIDER_ROOT], ff_knot_radius(&to[k])};
     a->circle[0] = 0.5f * (low_a + high_a);
     a->circle[1] = 0.5f * (low_b + high_b);
     float most = 0.0f;
@@ -247,8 +248,8 @@ static ff_status take_memory(ff_action_set *set, const bool *chosen, ff_error *e
     set->next = ff_calloc(next, sizeof *set->next);
     set->stops = ff_calloc((size_t)set->count * FF_SET_STOPS_MAX, sizeof *set->stops);
     set->samples = ff_calloc(knots, sizeof *set->samples);
-    set->about = ff_calloc(knots, sizeof *set->about);
-    if (set->actions && set->next && set->stops && set->samples && set->about) return FF_OK;
+    set->roots = ff_calloc(knots, sizeof *set->roots);
+    if (set->actions && set->next && set->stops && set->samples && set->roots) return FF_OK;
     return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", set->count);
 }
 
@@ -316,7 +317,7 @@ void ff_action_set_destroy(ff_action_set *set)
     free(set->next);
     free(set->stops);
     free(set->samples);
-    free(set->about);
+    free(set->roots);
     free(set);
 }
 

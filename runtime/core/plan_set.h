@@ -58,6 +58,11 @@ typedef struct ff_set_stop {
 } ff_set_stop;
 enum { FF_SET_STOPS_MAX = 12, FF_SET_NO_STOP = 0xffff };
 
+/* Of a sample: where the root is, and the radius about it that holds all colliders. */
+typedef struct ff_set_root {
+    float a, b, about; /* m */
+} ff_set_root;
+
 struct ff_action_set {
     const ff_pack *pack;
     const ff_pack_reach *reach; /* NULL when some action has no table */
@@ -66,7 +71,7 @@ struct ff_action_set {
     ff_set_next *next;
     ff_set_stop *stops;
     ff_knot *samples;
-    float *about; /* [knot_total] m: radii about the root that hold all colliders of a sample */
+    ff_set_root *roots; /* [knot_total] of the samples */
     uint32_t next_total, knot_total, stop_total;
     uint32_t next_most; /* successors of one action */
     float stop_cost;    /* J/kg: the cheapest way to a stand, from where that is dearest */
@@ -92,13 +97,18 @@ static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *
         out->y[i] = p->y[i] + f * (q->y[i] - p->y[i]);
 }
 
-/* A radius about the root that holds all of them then. */
-static inline float ff_set_about(const ff_action_set *set, const ff_set_action *action, float t)
+/* The root alone, to the same bits, and a radius about it that holds all colliders. */
+static inline ff_set_root ff_set_root_at(const ff_action_set *set, const ff_set_action *action, float t)
 {
-    int k = (int)(t * (float)(action->knots - 1) / action->duration);
+    float at = t * (float)(action->knots - 1) / action->duration;
+    int k = (int)at;
     k = k < 0 ? 0 : (k > (int)action->knots - 2 ? (int)action->knots - 2 : k);
-    const float *about = &set->about[action->first_knot + (uint32_t)k];
-    return (about[0] > about[1] ? about[0] : about[1]) + 1e-4f; /* which roundings do not come to */
+    float f = at - (float)k;
+    f = f < 0.0f ? 0.0f : (f > 1.0f ? 1.0f : f);
+    const ff_set_root *p = &set->roots[action->first_knot + (uint32_t)k], *q = p + 1;
+    return (ff_set_root){p->a + f * (q->a - p->a), p->b + f * (q->b - p->b),
+                         (p->about > q->about ? p->about : q->about) +
+                             1e-4f}; /* which roundings do not come to */
 }
 
 /* Share of the jump at a joint that is left t seconds into the action. */

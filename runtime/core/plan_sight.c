@@ -7,19 +7,30 @@
 static const double STOPPED = 3.0;               /* s after the time horizon, at the latest, plans stand */
 static const float FASTEST = 1.7f, REACH = 0.8f; /* m/s, m: of somebody who walks */
 
-/* How near a track comes to the start, as a share of how far one who walks from there may be by then, or when the search ends
- * at the latest (knots). More than 1: the two cannot meet. */
-static float nearest_share(const ff_track *track, int64_t shift, int64_t end, float a, float b)
+/* For each chunk of the search, one over the square of how far one who walks from the start may be when it ends, or when the search
+ * does at the latest (knots). */
+static void find_walks(const ff_sight *s, double end, float walk[FF_SIGHT_CHUNKS])
 {
-    int64_t last = (int64_t)track->count - 1, k = shift < 0 ? -shift : 0;
-    float least = INFINITY;
-    for (int64_t c = (k < last ? k : last) / FF_TRACK_CHUNK; c <= last / FF_TRACK_CHUNK; ++c) {
-        const ff_track_room *r = &track->room[c];
-        float da = -a < r->low_a ? r->low_a + a : (-a > r->high_a ? -a - r->high_a : 0.0f);
-        float db = -b < r->low_b ? r->low_b + b : (-b > r->high_b ? -b - r->high_b : 0.0f);
-        int64_t until = (c + 1) * FF_TRACK_CHUNK + shift;
-        if (c == last / FF_TRACK_CHUNK || until > end) until = end;
-        float share = sqrtf(da * da + db * db) / (REACH + FASTEST * (float)FF_TRACK_STEP * (float)until);
+    for (uint32_t c = 0; c < FF_SIGHT_CHUNKS; ++c) {
+        float until = (float)ff_min((double)((int32_t)(c + 1) * FF_TRACK_CHUNK - s->skipped), end);
+        float far = REACH + FASTEST * (float)FF_TRACK_STEP * until;
+        walk[c] = 1.0f / (far * far);
+    }
+}
+
+/* How near a track comes to the start, as a share of how far one who walks from there may be by then; squared. More than 1: the two
+ * cannot meet. */
+static float nearest_share(const ff_sight_track *seen, const float walk[FF_SIGHT_CHUNKS])
+{
+    float least = INFINITY, a = -seen->a, b = -seen->b;
+    int32_t last = (int32_t)seen->rooms - 1, c = seen->chunk < 0 ? -seen->chunk : 0;
+    for (c = c < last ? c : last; c <= last; ++c) {
+        const ff_track_room *r = &seen->track->room[c];
+        float da = a < r->low_a ? r->low_a - a : (a > r->high_a ? a - r->high_a : 0.0f);
+        float db = b < r->low_b ? r->low_b - b : (b > r->high_b ? b - r->high_b : 0.0f);
+        int32_t at = c + seen->chunk;
+        if (c == last || at >= FF_SIGHT_CHUNKS) at = FF_SIGHT_CHUNKS - 1; /* stands there for ever */
+        float share = (da * da + db * db) * walk[at < 0 ? 0 : at];
         least = share < least ? share : least;
     }
     return least;
@@ -32,47 +43,61 @@ static void see_tracks(ff_sight *s, const ff_plan_world *world, const ff_plan_op
     uint32_t most = options->view_count < FF_SIGHT_MAX ? options->view_count : FF_SIGHT_MAX;
     double end =
         options->time_horizon > 0.0 ? (options->time_horizon + STOPPED) / FF_TRACK_STEP : FF_TRACK_KNOTS_MAX;
+    float walk[FF_SIGHT_CHUNKS];
+    find_walks(s, end, walk);
     if (most == 0) return;
     for (uint32_t i = 0; i < world->track_count; ++i) {
         const ff_track *track = world->tracks[i];
-        int64_t shift = track->first - s->first_knot;
         ff_vec2 at = ff_sub2(track->origin, s->origin);
-        if (!(ff_length2(at) <= options->view)) continue;
-        float share = nearest_share(track, shift, (int64_t)end, (float)at.a, (float)at.b);
-        if (share > 1.0f || (s->count == most && share >= s->seen[most - 1].share)) continue;
+        if (!(ff_dot2(at, at) <= options->view * options->view)) continue;
+        ff_sight_track seen = {.track = track,
+                               .a = (float)at.a,
+                               .b = (float)at.b,
+                               .shift = (int32_t)(track->first - s->first_knot),
+                               .chunk = (int32_t)(ff_knot_chunk(track->first) - ff_knot_chunk(s->first_knot)),
+                               .rooms = ff_track_rooms(track)};
+        seen.share = nearest_share(&seen, walk);
+        if (seen.share > 1.0f || (s->count == most && seen.share >= s->seen[most - 1].share)) continue;
         uint32_t place = s->count < most ? s->count++ : most - 1;
-        for (; place > 0 && share < s->seen[place - 1].share; --place)
+        for (; place > 0 && seen.share < s->seen[place - 1].share; --place)
             s->seen[place] = s->seen[place - 1];
-        s->seen[place] = (ff_sight_track){track, (float)at.a, (float)at.b, (int32_t)shift, share};
+        s->seen[place] = seen;
     }
 }
 
-/* The boxes of chunk after chunk; spare lanes are nowhere. */
+/* The boxes of window after window; spare lanes are nowhere. */
 static void find_rooms(ff_sight *s)
 {
-    if (s->count == 0) return;
-    for (uint32_t c = 0; c < FF_SIGHT_CHUNKS; ++c) {
-        ff_sight_rooms *r = &s->rooms[c];
-        for (uint32_t i = 0; i < s->count; ++i) {
-            const ff_sight_track *seen = &s->seen[i];
-            const ff_track *track = seen->track;
-            float low_a = INFINITY, low_b = INFINITY, high_a = -INFINITY, high_b = -INFINITY;
-            for (int32_t k = 0; k <= FF_SIGHT_CHUNK; ++k) {
-                int32_t at = (int32_t)c * FF_SIGHT_CHUNK + k - seen->shift, last = (int32_t)track->count - 1;
-                at = at < 0 ? 0 : (at > last ? last : at);
-                float a = track->knots[at].a[FF_COLLIDER_ROOT], b = track->knots[at].b[FF_COLLIDER_ROOT];
-                float radius = track->radius[at];
-                low_a = a - radius < low_a ? a - radius : low_a;
-                low_b = b - radius < low_b ? b - radius : low_b;
-                high_a = a + radius > high_a ? a + radius : high_a;
-                high_b = b + radius > high_b ? b + radius : high_b;
-            }
-            r->low_a[i] = low_a + seen->a, r->high_a[i] = high_a + seen->a;
-            r->low_b[i] = low_b + seen->b, r->high_b[i] = high_b + seen->b;
-        }
-        for (uint32_t i = s->count; i < FF_SIGHT_MAX && (i & 3u); ++i)
-            r->low_a[i] = r->low_b[i] = r->high_a[i] = r->high_b[i] = INFINITY;
+    int32_t windows = 1;
+    for (uint32_t i = 0; i < s->count; ++i) {
+        const ff_sight_track *seen = &s->seen[i];
+        int32_t end = seen->chunk + (int32_t)seen->rooms;
+        windows = end > windows ? end : windows;
     }
+    s->window_count = (uint32_t)(windows < FF_SIGHT_CHUNKS ? windows : FF_SIGHT_CHUNKS);
+    for (uint32_t i = 0; i < s->count; ++i) {
+        const ff_sight_track *seen = &s->seen[i];
+        s->pathed[i] = false;
+        for (int32_t w = 0; w < (int32_t)s->window_count; ++w) {
+            int32_t last = (int32_t)seen->rooms - 1, c = w - seen->chunk;
+            c = c < 0 ? 0 : (c > last ? last : c);
+            ff_track_room all = seen->track->room[c];
+            for (int32_t k = c + 1; k < c + FF_SIGHT_WINDOW && k <= last; ++k) {
+                const ff_track_room *r = &seen->track->room[k];
+                all.low_a = r->low_a < all.low_a ? r->low_a : all.low_a;
+                all.low_b = r->low_b < all.low_b ? r->low_b : all.low_b;
+                all.high_a = r->high_a > all.high_a ? r->high_a : all.high_a;
+                all.high_b = r->high_b > all.high_b ? r->high_b : all.high_b;
+            }
+            ff_sight_rooms *to = &s->rooms[w];
+            to->low_a[i] = all.low_a + seen->a, to->high_a[i] = all.high_a + seen->a;
+            to->low_b[i] = all.low_b + seen->b, to->high_b[i] = all.high_b + seen->b;
+        }
+    }
+    for (uint32_t i = s->count; i < FF_SIGHT_MAX && (i & 3u); ++i)
+        for (uint32_t w = 0; w < s->window_count; ++w)
+            s->rooms[w].low_a[i] = s->rooms[w].low_b[i] = s->rooms[w].high_a[i] = s->rooms[w].high_b[i] =
+                INFINITY;
 }
 
 /* Where a mover is at a time. */
@@ -153,6 +178,7 @@ void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const f
     out->solids = world->solids;
     out->origin = origin;
     out->first_knot = (int64_t)floor(time / FF_TRACK_STEP);
+    out->skipped = (int32_t)(out->first_knot - ff_knot_chunk(out->first_knot) * FF_TRACK_CHUNK);
     out->lead = time - (double)out->first_knot * FF_TRACK_STEP;
     out->margin = (float)options->margin;
     out->stand_margin = (float)(options->margin + options->stand_margin);

@@ -8,9 +8,12 @@
 #include "runtime/core/plan_solids.h"
 
 enum { FF_SIGHT_MAX = 128, FF_SIGHT_MOVING_MAX = 64, FF_SIGHT_KNOTS = 48 };
-enum { FF_SIGHT_CHUNK = 4, FF_SIGHT_CHUNKS = FF_TRACK_KNOTS_MAX / FF_SIGHT_CHUNK }; /* knots */
+enum {
+    FF_SIGHT_CHUNKS = FF_TRACK_ROOMS,
+    FF_SIGHT_WINDOW = 4
+}; /* chunks of time; as long as most actions take */
 
-/* Room that all those seen take up between knots [4 c, 4 c + 4]. */
+/* Room that all those seen take up in chunks c to c + FF_SIGHT_WINDOW - 1. */
 typedef struct ff_sight_rooms {
     float low_a[FF_SIGHT_MAX], low_b[FF_SIGHT_MAX], high_a[FF_SIGHT_MAX], high_b[FF_SIGHT_MAX];
 } ff_sight_rooms;
@@ -18,10 +21,19 @@ typedef struct ff_sight_rooms {
 /* Another agent's track. */
 typedef struct ff_sight_track {
     const ff_track *track;
-    float a, b;    /* m, of its origin */
-    int32_t shift; /* its first knot */
-    float share;   /* of the way that can be walked to it by then */
+    float a, b;     /* m, of its origin */
+    int32_t shift;  /* its first knot */
+    int32_t chunk;  /* its first chunk */
+    uint32_t rooms; /* of the track */
+    float share;    /* of the way that can be walked to it by then */
 } ff_sight_track;
+
+/* Where its root is at all knots of the search, and radii that hold its body at a knot and the next one: four to be looked at
+ * at a time. */
+enum { FF_SIGHT_PATH = FF_TRACK_KNOTS_MAX + FF_SIGHT_KNOTS + 4 };
+typedef struct ff_sight_path {
+    float a[FF_SIGHT_PATH], b[FF_SIGHT_PATH], radius[FF_SIGHT_PATH];
+} ff_sight_path;
 
 /* A moving obstacle, or somebody who goes by velocity, knot by knot. */
 typedef struct ff_sight_mover {
@@ -38,12 +50,16 @@ typedef struct ff_sight {
     const ff_solids *solids;
     ff_vec2 origin;
     int64_t first_knot;
-    double lead; /* s, from the first knot to the start of the search */
+    int32_t skipped; /* knots of its chunk that are before it */
+    double lead;     /* s, from the first knot to the start of the search */
     float margin, stand_margin;
     ff_limits limits, stand_limits;
     uint32_t count, mover_count, shape_count;
     ff_sight_track seen[FF_SIGHT_MAX];
+    uint32_t window_count; /* of rooms; after them all stands */
     ff_sight_rooms rooms[FF_SIGHT_CHUNKS];
+    ff_sight_path path[FF_SIGHT_MAX]; /* of those that have been come near to */
+    bool pathed[FF_SIGHT_MAX];
     ff_sight_mover mover[FF_SIGHT_MOVING_MAX];
     ff_solid shape[FF_SIGHT_MAX];
     float cost, cost_within; /* proximity */
@@ -80,21 +96,33 @@ typedef struct ff_stance {
 /* Fill in everything after `hold`; the heading is the one that the action began with. */
 void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine, ff_stance *stance);
 
-/* Room of one that is seen, as far as it is known; c: any chunk, those past the last one stand. */
-static inline bool ff_sight_room_near(const ff_sight *sight, uint32_t c, uint32_t who, float a, float b,
-                                      float radius)
+/* The chunk that a knot, >= 0, is in. */
+static inline uint32_t ff_sight_chunk(const ff_sight *sight, int32_t knot)
 {
-    const ff_sight_rooms *r = &sight->rooms[c < FF_SIGHT_CHUNKS ? c : FF_SIGHT_CHUNKS - 1];
-    float da = a < r->low_a[who] ? r->low_a[who] - a : (a > r->high_a[who] ? a - r->high_a[who] : 0.0f);
-    float db = b < r->low_b[who] ? r->low_b[who] - b : (b > r->high_b[who] ? b - r->high_b[who] : 0.0f);
-    return da * da + db * db <= radius * radius;
+    return (uint32_t)(knot + sight->skipped) / FF_TRACK_CHUNK;
+}
+
+/* Does one that is seen take up room within radius of (a, b) in one of the chunks from first to last? */
+static inline bool ff_sight_room_near(const ff_sight_track *seen, uint32_t first, uint32_t last, float a,
+                                      float b, float radius)
+{
+    int32_t end = (int32_t)seen->rooms - 1;
+    for (int32_t c = (int32_t)first - seen->chunk; c <= (int32_t)last - seen->chunk; ++c) {
+        const ff_track_room *r = &seen->track->room[c < 0 ? 0 : (c > end ? end : c)];
+        float x = a - seen->a, y = b - seen->b;
+        float da = x < r->low_a ? r->low_a - x : (x > r->high_a ? x - r->high_a : 0.0f);
+        float db = y < r->low_b ? r->low_b - y : (y > r->high_b ? y - r->high_b : 0.0f);
+        if (da * da + db * db <= radius * radius) return true;
+        if (c >= end) return false;
+    }
+    return false;
 }
 
 /* Is a successor (of set->next) free of everything, up to the knot at or before its end? *cost (may be NULL) gets what
  * going near others costs. */
-bool ff_stance_free(const ff_sight *sight, ff_stance *stance, const ff_set_next *next, float *cost);
+bool ff_stance_free(ff_sight *sight, ff_stance *stance, const ff_set_next *next, float *cost);
 
 /* Is waiting for a time, or (INFINITY) standing for ever? */
-bool ff_stance_waits(const ff_sight *sight, const ff_stance *stance, float seconds);
+bool ff_stance_waits(ff_sight *sight, const ff_stance *stance, float seconds);
 
 #endif

@@ -28,36 +28,43 @@ static bool meets(const ff_sight_track *seen, int32_t knot, const ff_knot *p, co
            ff_bodies_hit(p, q, y0, y1, seen->a, seen->b, radius, theirs, limits);
 }
 
-/* Adds to the list who takes up room within radius of (a, b) in one of the chunks [from, to]. */
-static uint32_t list_near(const ff_sight *s, uint32_t from, uint32_t to, float a, float b, float radius,
+/* Bit k: that one of those seen from i on, i + 3 at most, takes up room within radius of (a, b) in a window. */
+static unsigned near_rooms(const ff_sight_rooms *r, uint32_t i, float a, float b, float radius)
+{
+    unsigned who = 0;
+#ifdef __SSE2__
+    const __m128 zero = _mm_setzero_ps(), x = _mm_set1_ps(a), y = _mm_set1_ps(b);
+    __m128 da = _mm_max_ps(
+        _mm_max_ps(_mm_sub_ps(_mm_loadu_ps(r->low_a + i), x), _mm_sub_ps(x, _mm_loadu_ps(r->high_a + i))),
+        zero);
+    __m128 db = _mm_max_ps(
+        _mm_max_ps(_mm_sub_ps(_mm_loadu_ps(r->low_b + i), y), _mm_sub_ps(y, _mm_loadu_ps(r->high_b + i))),
+        zero);
+    who = (unsigned)_mm_movemask_ps(
+        _mm_cmple_ps(_mm_add_ps(_mm_mul_ps(da, da), _mm_mul_ps(db, db)), _mm_set1_ps(radius * radius)));
+#else
+    for (uint32_t k = i; k < i + 4; ++k) {
+        float da = fmaxf(fmaxf(r->low_a[k] - a, a - r->high_a[k]), 0.0f);
+        float db = fmaxf(fmaxf(r->low_b[k] - b, b - r->high_b[k]), 0.0f);
+        if (da * da + db * db <= radius * radius) who |= 1u << (k - i);
+    }
+#endif
+    return who;
+}
+
+/* Lists who takes up room within radius of (a, b) in one of the chunks from first to last. */
+static uint32_t list_near(const ff_sight *s, uint32_t first, uint32_t last, float a, float b, float radius,
                           uint8_t near[FF_SIGHT_MAX])
 {
-    uint32_t count = 0;
-    from = from < FF_SIGHT_CHUNKS ? from : FF_SIGHT_CHUNKS - 1;
-    to = to < FF_SIGHT_CHUNKS ? to : FF_SIGHT_CHUNKS - 1;
+    uint32_t count = 0, end = s->window_count > 0 ? s->window_count - 1 : 0;
+    uint32_t from = first < end ? first : end, to = last < end ? last : end;
     for (uint32_t i = 0; i < s->count; i += 4) {
         unsigned who = 0;
-#ifdef __SSE2__
-        const __m128 zero = _mm_setzero_ps(), x = _mm_set1_ps(a), y = _mm_set1_ps(b);
-        const __m128 most = _mm_set1_ps(radius * radius);
-        for (uint32_t c = from; c <= to; ++c) {
-            const ff_sight_rooms *r = &s->rooms[c];
-            __m128 da = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_loadu_ps(r->low_a + i), x),
-                                              _mm_sub_ps(x, _mm_loadu_ps(r->high_a + i))),
-                                   zero);
-            __m128 db = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_loadu_ps(r->low_b + i), y),
-                                              _mm_sub_ps(y, _mm_loadu_ps(r->high_b + i))),
-                                   zero);
-            who |= (unsigned)_mm_movemask_ps(
-                _mm_cmple_ps(_mm_add_ps(_mm_mul_ps(da, da), _mm_mul_ps(db, db)), most));
-        }
-#else
-        for (uint32_t c = from; c <= to; ++c)
-            for (uint32_t k = i; k < s->count && k < i + 4; ++k)
-                if (ff_sight_room_near(s, c, k, a, b, radius)) who |= 1u << (k - i);
-#endif
+        for (uint32_t w = from; w <= to; w += FF_SIGHT_WINDOW)
+            who |= near_rooms(&s->rooms[w], i, a, b, radius);
         for (uint32_t k = i; who; ++k, who >>= 1)
-            if (who & 1u) near[count++] = (uint8_t)k;
+            if ((who & 1u) && ff_sight_room_near(&s->seen[k], first, last, a, b, radius))
+                near[count++] = (uint8_t)k;
     }
     return count;
 }
@@ -140,8 +147,8 @@ void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine
     float ra = st->end.a[FF_COLLIDER_ROOT], rb = st->end.b[FF_COLLIDER_ROOT];
     float reach = a->next_reach + sight->margin + st->moved;
     int32_t last = st->knot + (int32_t)(a->next_longest / (float)FF_TRACK_STEP) + 1;
-    st->near_count = list_near(sight, (uint32_t)st->knot / FF_SIGHT_CHUNK, (uint32_t)last / FF_SIGHT_CHUNK,
-                               ra, rb, reach, st->near);
+    st->near_count = list_near(sight, ff_sight_chunk(sight, st->knot), ff_sight_chunk(sight, last), ra, rb,
+                               reach, st->near);
     st->mover_count = 0;
     for (uint32_t i = 0; i < sight->mover_count; ++i)
         if (mover_near(&sight->mover[i], st->knot, last, ra, rb, reach))
@@ -150,18 +157,21 @@ void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine
     st->solids = sight->shape_count > 0 || ff_solids_near(sight->solids, root, (double)reach);
 }
 
-/* A successor, in its place. */
+/* A successor, in its place. Where its root gets to is worked out at once, all else where somebody is near. */
 typedef struct course {
     const ff_stance *stance;
     const ff_set_action *action;
     const float *anchor;
-    float a, b, radius;            /* m: circle that holds all of it */
-    int32_t last;                  /* knot, not after its end */
-    float jump;                    /* m, the furthest that the joint moves any collider */
-    uint32_t total, count;         /* knots; made so far */
-    ff_knot jumps;                 /* what the joint moves the colliders by at first */
-    ff_knot knots[FF_SIGHT_KNOTS]; /* [0] is the stance's tail */
-    float about[FF_SIGHT_KNOTS];   /* radii about the root, that hold all colliders */
+    float a, b, radius; /* m: circle that holds all of it */
+    int32_t last;       /* knot, not after its end */
+    float jump;         /* m, the furthest that the joint moves any collider */
+    uint32_t total;     /* knots */
+    bool begun;         /* roots and jumps are there */
+    uint64_t made;      /* bit k: knots[k] is there */
+    ff_knot jumps;      /* what the joint moves the colliders by at first */
+    float root_a[FF_SIGHT_KNOTS + 4], root_b[FF_SIGHT_KNOTS + 4]; /* [0] is the stance's tail */
+    float about[FF_SIGHT_KNOTS + 4]; /* radii about it, that hold all colliders */
+    ff_knot knots[FF_SIGHT_KNOTS];
 } course;
 
 /* What the joint moves the colliders by at first. */
@@ -176,49 +186,161 @@ static void find_jump(const ff_sight *sight, const course *c, ff_knot *jump)
     }
 }
 
-/* The first knots of a course; those that are there already are kept. */
-static void make_course(const ff_sight *sight, course *c, uint32_t count)
+/* s into the action at a knot of its course. */
+static float time_at(const course *c, uint32_t knot)
+{
+    return (float)(c->stance->knot + (int32_t)knot) * (float)FF_TRACK_STEP - c->stance->time;
+}
+
+/* The root at all knots, and at four more the last one again, as four are looked at at a time. */
+static void begin_course(const ff_sight *sight, course *c)
 {
     const ff_stance *st = c->stance;
-    const ff_set_action *b = c->action;
-    if (c->count == 0) {
-        find_jump(sight, c, &c->jumps);
-        c->knots[0] = st->tail;
-        c->about[0] = ff_knot_radius(&st->tail);
-        c->count = 1;
-    }
-    for (; c->count < count; ++c->count) {
-        float t = (float)(st->knot + (int32_t)c->count) * (float)FF_TRACK_STEP - st->time,
-              left = ff_set_blend(b, t);
-        ff_knot *to = &c->knots[c->count];
-        place(sight->set, b, c->anchor, st->cosine, st->sine, t, to);
-        if (left > 0.0f)
-            for (int i = 0; i < FF_TRACK_LANES; ++i) {
-                to->a[i] += left * c->jumps.a[i];
-                to->b[i] += left * c->jumps.b[i];
-                to->y[i] += left * c->jumps.y[i];
-            }
+    find_jump(sight, c, &c->jumps);
+    c->begun = true;
+    c->made = 1;
+    c->knots[0] = st->tail;
+    c->root_a[0] = st->tail.a[FF_COLLIDER_ROOT];
+    c->root_b[0] = st->tail.b[FF_COLLIDER_ROOT];
+    c->about[0] = ff_knot_radius(&st->tail);
+    for (uint32_t k = 1; k < c->total; ++k) {
+        float t = time_at(c, k), left = ff_set_blend(c->action, t);
+        ff_set_root root = ff_set_root_at(sight->set, c->action, t);
+        c->root_a[k] = c->anchor[0] + st->cosine * root.a - st->sine * root.b;
+        c->root_b[k] = c->anchor[1] + st->sine * root.a + st->cosine * root.b;
+        if (left > 0.0f) {
+            c->root_a[k] += left * c->jumps.a[FF_COLLIDER_ROOT];
+            c->root_b[k] += left * c->jumps.b[FF_COLLIDER_ROOT];
+        }
         /* Of the samples on both sides; the joint may move the root one way and a hand the other. */
-        c->about[c->count] = ff_set_about(sight->set, b, t) + 2.0f * left * c->jump;
+        c->about[k] = root.about + 2.0f * left * c->jump;
+    }
+    for (uint32_t k = c->total; k < c->total + 4; ++k) {
+        c->root_a[k] = c->root_a[k - 1];
+        c->root_b[k] = c->root_b[k - 1];
+        c->about[k] = c->about[k - 1];
     }
 }
 
-static bool meets_track(const ff_sight *sight, course *c, uint32_t who)
+/* All colliders at a knot. */
+static const ff_knot *course_knot(const ff_sight *sight, course *c, uint32_t k)
+{
+    ff_knot *to = &c->knots[k];
+    if (c->made >> k & 1u) return to;
+    c->made |= (uint64_t)1 << k;
+    float t = time_at(c, k), left = ff_set_blend(c->action, t);
+    place(sight->set, c->action, c->anchor, c->stance->cosine, c->stance->sine, t, to);
+    if (left > 0.0f)
+        for (int i = 0; i < FF_TRACK_LANES; ++i) {
+            to->a[i] += left * c->jumps.a[i];
+            to->b[i] += left * c->jumps.b[i];
+            to->y[i] += left * c->jumps.y[i];
+        }
+    return to;
+}
+
+static void make_course(const ff_sight *sight, course *c)
+{
+    if (!c->begun) begin_course(sight, c);
+    for (uint32_t k = 0; k < c->total; ++k)
+        course_knot(sight, c, k);
+}
+
+/* The path of one that is seen, made when it is first asked for. */
+static const ff_sight_path *path_of(ff_sight *sight, uint32_t who)
+{
+    ff_sight_path *path = &sight->path[who];
+    if (sight->pathed[who]) return path;
+    sight->pathed[who] = true;
+    const ff_sight_track *seen = &sight->seen[who];
+    float before = 0.0f;
+    for (int32_t k = FF_SIGHT_PATH - 1; k >= 0; --k) {
+        float radius;
+        const ff_knot *y = track_knot(seen, k, &radius);
+        path->a[k] = y->a[FF_COLLIDER_ROOT] + seen->a;
+        path->b[k] = y->b[FF_COLLIDER_ROOT] + seen->b;
+        path->radius[k] = radius > before ? radius : before;
+        before = radius;
+    }
+    return path;
+}
+
+/* Bit k: between knots k and k + 1 of the course its root comes so near to a path, of which i is the knot of k = 0, that the bodies may meet.
+ * square[k]: how near, m2. */
+static uint64_t near_path(const course *c, const ff_sight_path *path, uint32_t i, float margin,
+                          float square[FF_SIGHT_KNOTS + 4])
+{
+    uint64_t near = 0;
+    for (uint32_t k = 0; k + 1 < c->total; k += 4) {
+#ifdef __SSE2__
+        const __m128 zero = _mm_setzero_ps(), one = _mm_set1_ps(1.0f), tiny = _mm_set1_ps(1e-12f);
+        __m128 pa = _mm_sub_ps(_mm_loadu_ps(path->a + i + k), _mm_loadu_ps(c->root_a + k));
+        __m128 pb = _mm_sub_ps(_mm_loadu_ps(path->b + i + k), _mm_loadu_ps(c->root_b + k));
+        __m128 da =
+            _mm_sub_ps(_mm_sub_ps(_mm_loadu_ps(path->a + i + k + 1), _mm_loadu_ps(c->root_a + k + 1)), pa);
+        __m128 db =
+            _mm_sub_ps(_mm_sub_ps(_mm_loadu_ps(path->b + i + k + 1), _mm_loadu_ps(c->root_b + k + 1)), pb);
+        __m128 dd = _mm_add_ps(_mm_mul_ps(da, da), _mm_mul_ps(db, db));
+        __m128 t = _mm_sub_ps(zero, _mm_add_ps(_mm_mul_ps(pa, da), _mm_mul_ps(pb, db)));
+        t = _mm_and_ps(_mm_div_ps(t, _mm_max_ps(dd, tiny)), _mm_cmpgt_ps(dd, tiny));
+        t = _mm_min_ps(_mm_max_ps(t, zero), one);
+        pa = _mm_add_ps(pa, _mm_mul_ps(t, da));
+        pb = _mm_add_ps(pb, _mm_mul_ps(t, db));
+        __m128 most = _mm_max_ps(_mm_loadu_ps(c->about + k), _mm_loadu_ps(c->about + k + 1));
+        most = _mm_add_ps(_mm_add_ps(most, _mm_loadu_ps(path->radius + i + k)), _mm_set1_ps(margin));
+        __m128 far = _mm_add_ps(_mm_mul_ps(pa, pa), _mm_mul_ps(pb, pb));
+        _mm_storeu_ps(square + k, far);
+        near |= (uint64_t)(unsigned)_mm_movemask_ps(_mm_cmple_ps(far, _mm_mul_ps(most, most))) << k;
+#else
+        for (uint32_t m = k; m < k + 4; ++m) {
+            float pa = path->a[i + m] - c->root_a[m], pb = path->b[i + m] - c->root_b[m];
+            float da = (path->a[i + m + 1] - c->root_a[m + 1]) - pa;
+            float db = (path->b[i + m + 1] - c->root_b[m + 1]) - pb;
+            float about = c->about[m] > c->about[m + 1] ? c->about[m] : c->about[m + 1];
+            float most = about + path->radius[i + m] + margin;
+            square[m] = ff_nearest_pass(pa, pb, da, db);
+            if (square[m] <= most * most) near |= (uint64_t)1 << m;
+        }
+#endif
+    }
+    return near & (((uint64_t)1 << (c->total - 1)) - 1u);
+}
+
+/* Do the bodies meet between a knot of the course and the next? */
+static bool bodies_meet(ff_sight *sight, course *c, uint32_t who, uint32_t k)
+{
+    float r0, r1, mine = c->about[k] > c->about[k + 1] ? c->about[k] : c->about[k + 1];
+    const ff_sight_track *seen = &sight->seen[who];
+    const ff_knot *x0 = course_knot(sight, c, k), *x1 = course_knot(sight, c, k + 1);
+    const ff_knot *y0 = track_knot(seen, c->stance->knot + (int32_t)k, &r0);
+    const ff_knot *y1 = track_knot(seen, c->stance->knot + (int32_t)k + 1, &r1);
+    return ff_bodies_hit(x0, x1, y0, y1, seen->a, seen->b, mine, r0 > r1 ? r0 : r1, &sight->limits);
+}
+
+static bool meets_track(ff_sight *sight, course *c, uint32_t who)
 {
     const ff_stance *st = c->stance;
-    uint32_t first = (uint32_t)st->knot / FF_SIGHT_CHUNK;
-    uint32_t last = (uint32_t)c->last / FF_SIGHT_CHUNK;
-    bool near = false;
-    for (uint32_t i = first; i <= last && !near; ++i)
-        near = ff_sight_room_near(sight, i, who, c->a, c->b, c->radius);
+    if (!ff_sight_room_near(&sight->seen[who], ff_sight_chunk(sight, st->knot),
+                            ff_sight_chunk(sight, c->last), c->a, c->b, c->radius))
+        return false;
+    if (c->total < 2) return false;
+    if (!c->begun) begin_course(sight, c);
+    uint32_t from = st->knot < FF_TRACK_KNOTS_MAX ? (uint32_t)st->knot : FF_TRACK_KNOTS_MAX;
+    float square[FF_SIGHT_KNOTS + 4];
+    uint64_t near = near_path(c, path_of(sight, who), from, sight->margin, square);
     if (!near) return false;
-    for (uint32_t k = 0; k + 1 < c->total; ++k) {
-        if (k + 1 >= c->count) make_course(sight, c, k + 2);
-        float radius = c->about[k] > c->about[k + 1] ? c->about[k] : c->about[k + 1];
-        if (meets(&sight->seen[who], st->knot + (int32_t)k, &c->knots[k], &c->knots[k + 1], radius,
-                  sight->margin, &sight->limits))
-            return true;
-    }
+    /* Where they are nearest they meet first. */
+    uint32_t nearest = 0;
+    float least = INFINITY;
+    for (uint32_t k = 0; k + 1 < c->total; ++k)
+        if ((near >> k & 1u) && square[k] < least) {
+            nearest = k;
+            least = square[k];
+        }
+    if (bodies_meet(sight, c, who, nearest)) return true;
+    near &= ~((uint64_t)1 << nearest);
+    for (uint32_t k = 0; near >> k; ++k)
+        if ((near >> k & 1u) && bodies_meet(sight, c, who, k)) return true;
     return false;
 }
 
@@ -228,12 +350,12 @@ static bool meets_things(const ff_sight *sight, course *c)
     const ff_stance *st = c->stance;
     double margin = (double)sight->margin;
     if (st->mover_count == 0 && !st->solids) return false;
-    make_course(sight, c, c->total);
+    make_course(sight, c);
     ff_vec2 centre = ff_add2(sight->origin, ff_v2((double)c->a, (double)c->b));
     if (st->solids &&
-        ff_solids_hit(sight->solids, centre, (double)c->radius, sight->origin, c->knots, c->count, margin))
+        ff_solids_hit(sight->solids, centre, (double)c->radius, sight->origin, c->knots, c->total, margin))
         return true;
-    for (uint32_t k = 0; k + 1 < c->count; ++k) {
+    for (uint32_t k = 0; k + 1 < c->total; ++k) {
         const ff_knot *p = &c->knots[k], *q = p + 1;
         for (uint32_t i = 0; i < sight->shape_count; ++i)
             if (ff_solid_hit(&sight->shape[i], ff_v2(0.0, 0.0), sight->origin, p, q, margin)) return true;
@@ -248,10 +370,10 @@ static float proximity_cost(const ff_sight *sight, course *c)
 {
     const ff_stance *st = c->stance;
     float sum = 0.0f, within = sight->cost_within + 2.0f * ff_collider_radius[FF_COLLIDER_ROOT];
-    if (st->near_count > 0) make_course(sight, c, c->total);
+    if (st->near_count > 0) make_course(sight, c);
     for (uint32_t i = 0; i < st->near_count; ++i) {
         const ff_sight_track *seen = &sight->seen[st->near[i]];
-        for (uint32_t k = 1; k < c->count; ++k) {
+        for (uint32_t k = 1; k < c->total; ++k) {
             float radius;
             const ff_knot *y = track_knot(seen, st->knot + (int32_t)k, &radius);
             float a = y->a[FF_COLLIDER_ROOT] + seen->a - c->knots[k].a[FF_COLLIDER_ROOT];
@@ -269,7 +391,7 @@ static uint32_t knots_to(const ff_stance *st, int32_t last)
     return 1 + (more < FF_SIGHT_KNOTS - 1 ? more : FF_SIGHT_KNOTS - 1);
 }
 
-bool ff_stance_free(const ff_sight *sight, ff_stance *st, const ff_set_next *next, float *cost)
+bool ff_stance_free(ff_sight *sight, ff_stance *st, const ff_set_next *next, float *cost)
 {
     if (cost) *cost = 0.0f;
     if (st->near_count == 0 && st->mover_count == 0 && !st->solids) return true;
@@ -281,7 +403,8 @@ bool ff_stance_free(const ff_sight *sight, ff_stance *st, const ff_set_next *nex
     c.jump = next->jump;
     c.last = (int32_t)((st->time + b->duration) / (float)FF_TRACK_STEP);
     c.total = knots_to(st, c.last);
-    c.count = 0;
+    c.begun = false;
+    c.made = 0;
     c.a = c.anchor[0] + st->cosine * b->circle[0] - st->sine * b->circle[1];
     c.b = c.anchor[1] + st->sine * b->circle[0] + st->cosine * b->circle[1];
     c.radius = b->circle[2] + next->jump + st->moved + sight->margin;
@@ -312,7 +435,7 @@ static bool stands_in_way(const ff_sight_track *seen, const ff_stance *st, int32
     return ever && meets(seen, k, &st->end, &st->end, radius, margin, limits);
 }
 
-bool ff_stance_waits(const ff_sight *sight, const ff_stance *st, float seconds)
+bool ff_stance_waits(ff_sight *sight, const ff_stance *st, float seconds)
 {
     bool ever = !(seconds < 60.0f);
     float margin = ever ? sight->stand_margin : sight->margin;
@@ -321,8 +444,8 @@ bool ff_stance_waits(const ff_sight *sight, const ff_stance *st, float seconds)
     float ra = st->end.a[FF_COLLIDER_ROOT], rb = st->end.b[FF_COLLIDER_ROOT];
     float r0 = ff_knot_radius(&st->tail), r1 = ff_knot_radius(&st->end), radius = r0 > r1 ? r0 : r1;
     uint8_t near[FF_SIGHT_MAX];
-    uint32_t count = list_near(sight, (uint32_t)st->knot / FF_SIGHT_CHUNK, (uint32_t)last / FF_SIGHT_CHUNK,
-                               ra, rb, radius + st->moved + margin, near);
+    uint32_t count = list_near(sight, ff_sight_chunk(sight, st->knot), ff_sight_chunk(sight, last), ra, rb,
+                               radius + st->moved + margin, near);
     for (uint32_t i = 0; i < count; ++i)
         if (stands_in_way(&sight->seen[near[i]], st, last, ever, radius, margin, limits)) return false;
     const ff_knot stands[2] = {st->tail, st->end};

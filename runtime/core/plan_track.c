@@ -120,11 +120,13 @@ static float high_of(float x, float y)
 /* Room of each chunk: knots at both of its ends belong to it. */
 static void find_rooms(ff_track *track)
 {
-    for (uint32_t c = 0; c < FF_TRACK_KNOTS_MAX / FF_TRACK_CHUNK; ++c) {
+    int64_t begin =
+        ff_knot_chunk(track->first) * FF_TRACK_CHUNK - track->first; /* <= 0: of the first chunk */
+    for (uint32_t c = 0; c < ff_track_rooms(track); ++c) {
         ff_track_room room = {INFINITY, INFINITY, -INFINITY, -INFINITY};
         for (uint32_t i = 0; i <= FF_TRACK_CHUNK; ++i) {
-            uint32_t k = c * FF_TRACK_CHUNK + i;
-            if (k >= track->count) k = track->count - 1;
+            int64_t k = begin + (int64_t)(c * FF_TRACK_CHUNK + i), last = (int64_t)track->count - 1;
+            k = k < 0 ? 0 : (k > last ? last : k);
             float a = track->knots[k].a[FF_COLLIDER_ROOT], b = track->knots[k].b[FF_COLLIDER_ROOT],
                   r = track->radius[k];
             room.low_a = low_of(room.low_a, a - r), room.high_a = high_of(room.high_a, a + r);

@@ -98,7 +98,7 @@ static place after(const problem *p, const place *at, const ff_set_next *next)
                    at->time + (double)r->duration,       next->action, false};
 }
 
-static void stance_at(const problem *p, const ff_sight *sight, const place *at, ff_stance *out)
+static void stance_at(const problem *p, ff_sight *sight, const place *at, ff_stance *out)
 {
     (void)p;
     ff_vec2 ball = ff_sub2(at->ball, sight->origin), other = ff_sub2(at->anchor, sight->origin);
@@ -115,7 +115,7 @@ static void stance_at(const problem *p, const ff_sight *sight, const place *at, 
 }
 
 /* May one come to stand from here, by the ways of the set, and stay? */
-static bool stops(const problem *p, const ff_sight *sight, const place *at)
+static bool stops(const problem *p, ff_sight *sight, const place *at)
 {
     const ff_set_action *a = &p->set->actions[at->action];
     ff_stance stance;
@@ -142,7 +142,7 @@ typedef struct tried {
     long sequences;
 } tried;
 
-static void try_all(const problem *p, const ff_sight *sight, const place *at, int depth, double cost,
+static void try_all(const problem *p, ff_sight *sight, const place *at, int depth, double cost,
                     tried *out)
 {
     const ff_set_action *a = &p->set->actions[at->action];
