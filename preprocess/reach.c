@@ -46,7 +46,7 @@ static edge edge_of(const ff_pack_action *action, const ff_pack_action *next, fl
     return (edge){.move = {(float)move.a, (float)move.b},
                   .cosine = (float)turned.a,
                   .sine = (float)turned.b,
-                  .cost = ff_action_cost(next) + joint};
+                  .cost = ff_action_cost(next, 1.0f) + joint};
 }
 
 static int by_after(const void *x, const void *y)

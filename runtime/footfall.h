@@ -401,6 +401,7 @@ typedef struct ff_baseline_def {
 } ff_baseline_def;
 
 /* How those plan who move by footsteps. */
+enum { FF_SPEED_VARIATIONS_MAX = 4 };
 typedef struct ff_footsteps_def {
     bool
         mixed; /* there is memory for them (12 kB each) though the crowd's planner is velocity: agents may differ, or
@@ -416,6 +417,9 @@ typedef struct ff_footsteps_def {
     uint32_t expiry_actions; /* or after so many actions of it; default 3 */
     double margin;           /* m, kept from others' bodies and obstacles; default 0.08 */
     double proximity_cost;   /* J/(kg s) that being within 0.3 m of somebody counts for; default 0 */
+    double speed_variations
+        [FF_SPEED_VARIATIONS_MAX]; /* factors, 0.5 to 1.5, at which walking steps are there besides their own
+                                speed; 0: none; default none */
 } ff_footsteps_def;
 
 /* A waypoint on the way to an agent's goal: true and *out, or false: straight to the goal. Called from any of the crowd's

@@ -111,6 +111,9 @@ static ff_status check_footsteps_def(const ff_crowd_def *def, ff_error *error)
     if (status == FF_OK) status = check_between(f->margin, 0.0, 1.0, "footsteps.margin (m)", error);
     if (status == FF_OK)
         status = check_between(f->proximity_cost, 0.0, 1e4, "footsteps.proximity_cost", error);
+    for (int i = 0; status == FF_OK && i < FF_SPEED_VARIATIONS_MAX; ++i)
+        if (f->speed_variations[i] != 0.0)
+            status = check_between(f->speed_variations[i], 0.5, 1.5, "a footsteps.speed_variations", error);
     if (status == FF_OK)
         status = check_between(def->max_obstacles, 0.0, OBSTACLES_MAX, "max_obstacles", error);
     return status;

@@ -34,8 +34,9 @@ static bool likest_action(const ff_action_set *set, const ff_gait *gait, int foo
         const ff_pack_action *r = ff_action_set_record(set, i);
         bool walks = r->mode == FF_MODE_WALK_SHORT || r->mode == FF_MODE_WALK_LONG;
         if (!walks || (int)r->swing != foot || r->flags & FF_ACTION_TO_STANDING) continue;
-        ff_vec2 speed = ff_scale2(ff_fwd2((double)r->direction), (double)r->speed);
-        double turn = (double)r->theta / (double)r->duration - gait->rates.turn;
+        double pace = ff_action_set_pace(set, i);
+        ff_vec2 speed = ff_scale2(ff_fwd2((double)r->direction), pace * (double)r->speed);
+        double turn = pace * (double)r->theta / (double)r->duration - gait->rates.turn;
         double off =
             fabs(speed.a - gait->rates.forward) + fabs(speed.b - gait->rates.left) + TURN_WEIGHT * fabs(turn);
         if (off >= best) continue;
@@ -58,8 +59,9 @@ bool ff_stepper_enters(const ff_crowd *crowd, uint32_t slot, double time, ff_pla
     int foot = landed_foot(crowd, gait);
     if (foot < 0 || !likest_action(set, gait, foot, &action)) return false;
     const ff_pack_action *r = ff_action_set_record(set, action);
-    ff_plan_step step = {
-        .heading = body->heading - (double)r->theta, .start = time - (double)r->duration, .action = action};
+    ff_plan_step step = {.heading = body->heading - (double)r->theta,
+                         .start = time - (double)r->duration / ff_action_set_pace(set, action),
+                         .action = action};
     ff_vec2 land = ff_v2((double)r->land[0], (double)r->land[1]);
     ff_vec2 lock = ff_v2(gait->foot[foot].lock.a, gait->foot[foot].lock.b);
     step.anchor = ff_sub2(lock, ff_from_frame2(ff_fwd2(step.heading), land));
@@ -157,8 +159,9 @@ static ff_rates rates_of(const ff_stepper *s, const ff_footsteps *f)
     if (s->play.step[0].action == FF_PLAY_STAND) return (ff_rates){0.0, 0.0, 0.0};
     const ff_plan_step *step = s->at > 0 ? &s->plan.steps[s->at - 1] : &s->plan.from;
     const ff_pack_action *r = ff_action_set_record(f->actions, step->action);
-    ff_vec2 speed = ff_scale2(ff_fwd2((double)r->direction - (double)r->theta), (double)r->speed);
-    return (ff_rates){speed.a, speed.b, (double)r->theta / (double)r->duration};
+    double pace = ff_action_set_pace(f->actions, step->action);
+    ff_vec2 speed = ff_scale2(ff_fwd2((double)r->direction - (double)r->theta), pace * (double)r->speed);
+    return (ff_rates){speed.a, speed.b, pace * (double)r->theta / (double)r->duration};
 }
 
 /* Where in the cycle somebody is whose support foot has just landed: where the other foot, on its toes by now, leaves the

@@ -69,7 +69,9 @@ ff_status ff_footsteps_create(ff_crowd *crowd, ff_error *error)
     f->options = options_of(&def->footsteps);
     f->job_max = most_jobs(def);
     f->node_max = (uint64_t)(NODES_PER_SECOND * def->step * def->max_agents);
-    ff_status status = ff_action_set_create(crowd->pack, def->footsteps.actions, &f->actions, error);
+    ff_status status =
+        ff_action_set_create_varied(crowd->pack, def->footsteps.actions, def->footsteps.speed_variations,
+                                    FF_SPEED_VARIATIONS_MAX, &f->actions, error);
     if (status == FF_OK) status = ff_play_set_create(crowd->pack, crowd->space, &f->play, error);
     if (status == FF_OK) status = ff_solids_reserve(def->max_walls + def->max_obstacles, &f->solids, error);
     if (status != FF_OK) return status;
@@ -121,7 +123,7 @@ ff_play_order ff_order_of(const ff_footsteps *f, const ff_plan_step *step)
 {
     return (ff_play_order){.action = ff_action_set_pack_index(f->actions, step->action),
                            .start = step->start,
-                           .pace = 1.0,
+                           .pace = ff_action_set_pace(f->actions, step->action),
                            .anchor = step->anchor,
                            .heading = step->heading};
 }

@@ -44,7 +44,7 @@ ff_section_format ff_crowd_file_format(const ff_section_kind *kinds, uint32_t co
 /* ------------------------------------------------------------------------------------------- definition */
 
 /* A member more or less: save and load it here, then put the new size. */
-_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 232, "is all of a definition saved?");
+_Static_assert(sizeof(void *) != 8 || sizeof(ff_crowd_def) == 264, "is all of a definition saved?");
 
 enum { MCN_PARTS = 11 };
 
@@ -84,6 +84,7 @@ ff_saved_def ff_crowd_def_pack(const ff_crowd_def *def)
                           .actions = def->footsteps.actions,
                           .expiry_actions = def->footsteps.expiry_actions,
                           .max_obstacles = def->max_obstacles};
+    memcpy(saved.speed_variations, def->footsteps.speed_variations, sizeof saved.speed_variations);
     ff_mcn_def mcn = def->mcn;
     bool *parts[MCN_PARTS];
     mcn_switches(&mcn, parts);
@@ -128,6 +129,7 @@ bool ff_crowd_def_unpack(const ff_saved_def *saved, ff_crowd_def *out)
                                         .expiry_actions = saved->expiry_actions,
                                         .margin = saved->plan_margin,
                                         .proximity_cost = saved->proximity_cost};
+    memcpy(out->footsteps.speed_variations, saved->speed_variations, sizeof saved->speed_variations);
     out->max_obstacles = saved->max_obstacles;
     return true;
 }

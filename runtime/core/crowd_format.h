@@ -55,6 +55,7 @@ typedef struct ff_saved_def {
     double plan_seconds, plan_expiry, plan_margin, proximity_cost; /* s, s, m, J/(kg s) */
     uint32_t planner, footsteps;                                   /* bits of the latter: mixed, paper */
     uint32_t nodes, plans, actions, expiry_actions, max_obstacles, unused_too;
+    double speed_variations[FF_SPEED_VARIATIONS_MAX];
 } ff_saved_def;
 
 typedef struct ff_saved_wall {

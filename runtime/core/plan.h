@@ -27,12 +27,18 @@ typedef struct ff_action_set ff_action_set;
  * outlive the set. */
 enum { FF_ACTIONS_DEFAULT = 200 };
 ff_status ff_action_set_create(const ff_pack *pack, uint32_t cap, ff_action_set **out, ff_error *error);
+/* The same, and each walking step once more at each of speed_count (at most FF_SPEED_VARIATIONS_MAX) factors on its speed, as
+ * an action of its own: same places, other times (algorithms A.13). Factors that are 0 are none. */
+ff_status ff_action_set_create_varied(const ff_pack *pack, uint32_t cap, const double *speeds,
+                                      uint32_t speed_count, ff_action_set **out, ff_error *error);
 void ff_action_set_destroy(ff_action_set *set); /* NULL is fine */
 
 uint32_t ff_action_set_count(const ff_action_set *set);
 /* The record of an action (an index into the set), and its number in the pack. */
 const ff_pack_action *ff_action_set_record(const ff_action_set *set, uint32_t action);
 uint32_t ff_action_set_pack_index(const ff_action_set *set, uint32_t action);
+/* How many times as fast as its record it is done. */
+double ff_action_set_pace(const ff_action_set *set, uint32_t action);
 /* The action whose last pose people stand in who have not come by any other way. */
 uint32_t ff_action_set_stand(const ff_action_set *set);
 const ff_pack *ff_action_set_pack(const ff_action_set *set);

@@ -14,7 +14,11 @@ static ff_status pose_at(const ff_action_set *set, const ff_plan *plan, double t
     const ff_plan_step *step = &plan->steps[ff_plan_step_at(plan, time)];
     const ff_pack_action *r = ff_action_set_record(set, step->action);
     const ff_pack_clip *clip = &pack->clips[r->clip];
-    double share = step->hold ? 1.0 : ff_clamp((time - step->start) / (double)r->duration, 0.0, 1.0);
+    double share =
+        step->hold
+            ? 1.0
+            : ff_clamp((time - step->start) * ff_action_set_pace(set, step->action) / (double)r->duration,
+                       0.0, 1.0);
     double at = (double)r->t_0 - (double)clip->time_offset + share * (double)r->duration;
     uint32_t flags = r->flags & FF_ACTION_MIRRORED ? FF_SAMPLE_MIRRORED : 0;
     *root = ff_plan_root_at(set, plan, time);

@@ -66,6 +66,7 @@ ff_guide ff_guide_make(const ff_action_set *set, const ff_solids *solids, const 
                       .origin = origin,
                       .radius = (float)goal->radius,
                       .rate = set->rate,
+                      .unit = FF_REACH_UNIT * set->reach_share,
                       .goal = {.at = {(float)(goal->at.a - origin.a), (float)(goal->at.b - origin.b)},
                                .stand = goal->stand,
                                .nearer = (wider > 0.0f ? wider * set->rate : 0.0f) +

@@ -22,6 +22,7 @@ typedef struct ff_guide {
     const ff_field *field;      /* or NULL */
     ff_vec2 origin;
     float radius, rate;
+    float unit; /* J/kg that 1 in the table stands for */
     ff_guide_goal goal;
     uint32_t via_count;
     ff_guide_goal via[FF_GUIDE_VIAS]; /* corners on the way that the field shows, in order */
@@ -52,7 +53,7 @@ static inline float ff_guide_reach(const ff_guide *guide, float da, float db, fl
     if (last->support == 0) l = -l; /* the right foot has landed */
     int i = (int)(f / FF_REACH_CELL + (float)MIDDLE + 0.5f),
         k = (int)(l / FF_REACH_CELL + (float)MIDDLE + 0.5f);
-    return FF_REACH_UNIT * (float)guide->reach[last->reach].cost[i][k] + beyond;
+    return guide->unit * (float)guide->reach[last->reach].cost[i][k] + beyond;
 }
 
 static inline float ff_guide_to(const ff_guide *guide, const ff_guide_goal *goal, const float root[2],

@@ -8,11 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float RUN_FACTOR = 1.3f, PLATFORM_COST = 150.0f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
-static const double CROSS = -20.0 * FF_DEG;
-static const float BLEND = 0.3f;                    /* s, algorithms B.9 */
-static const float FLAT = 0.05f, LEVEL = 0.03f;     /* m: heights and rises that pass for level ground */
-static const float SHORTEST = 0.2f, LONGEST = 3.0f; /* s */
+static const float BLEND = 0.3f;  /* s, algorithms B.9 */
+static const float FASTER = 0.9f; /* m/s, from one walking step to the next (algorithms A.13) */
 
 const float ff_collider_radius[FF_COLLIDER_COUNT] = {0.12f, 0.08f, 0.08f, 0.11f, 0.11f, 0.18f};
 
@@ -22,40 +19,6 @@ void ff_collider_extent(uint32_t collider, float y, float *low, float *high)
     static const float above[FF_COLLIDER_COUNT] = {0.12f, 0.10f, 0.10f, 0.10f, 0.10f, 0.45f};
     *low = y - below[collider] > 0.0f ? y - below[collider] : 0.0f;
     *high = y + above[collider];
-}
-
-/* ------------------------------------------------------------------------------------------------ which ones */
-
-bool ff_action_is_platform(const ff_pack_action *r)
-{
-    return r->mode == FF_MODE_JUMP || r->mode == FF_MODE_CROUCH || r->mode == FF_MODE_CLIMB;
-}
-
-bool ff_action_is_usable(const ff_pack_action *r)
-{
-    return r->mode != FF_MODE_CLIMB && fabsf(r->height) < FLAT && fabsf(r->rise) < LEVEL &&
-           r->duration >= SHORTEST && r->duration <= LONGEST && r->collider_samples >= 2 &&
-           r->energy >= 0.0f && r->speed >= 0.0f && r->support != r->swing;
-}
-
-ff_action_class ff_action_class_of(const ff_pack_action *r)
-{
-    if (r->flags & FF_ACTION_TO_STANDING) return FF_CLASS_STAND;
-    if (r->speed > 0.5f) return FF_CLASS_WALK;
-    double alpha = fabs((double)r->alpha);
-    if (alpha > 150.0 * FF_DEG) return FF_CLASS_BACK_OPEN;
-    return alpha > 60.0 * FF_DEG ? FF_CLASS_SIDE_OPEN : FF_CLASS_WALK;
-}
-
-float ff_action_cost(const ff_pack_action *r)
-{
-    float cost = r->energy;
-    if (r->mode == FF_MODE_RUN) cost *= RUN_FACTOR;
-    if (!(r->flags & FF_ACTION_ALPHA_UNDEFINED) && (double)r->alpha < CROSS) cost *= CROSS_FACTOR;
-    if (ff_action_is_platform(r)) cost += PLATFORM_COST;
-    float lost = r->duration * (1.0f - r->speed / FF_WALK_SPEED); /* s */
-    if (lost > 0.0f) cost += lost * (float)((FF_PLAN_WAIT - 1.0) * FF_E_S);
-    return cost;
 }
 
 /* --------------------------------------------------------------------------------------------------- records */
@@ -91,13 +54,18 @@ static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_act
     a->circle[2] = most;
 }
 
+static float duration_at(const ff_pack_action *r, float pace)
+{
+    return pace == 1.0f ? r->duration : r->duration / pace;
+}
+
 static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
 {
     const ff_pack_action *r = &set->pack->actions[pack_index];
     ff_set_action *a = &set->actions[index];
     ff_vec2 turn = ff_fwd2((double)r->theta);
     *a = (ff_set_action){.duration = r->duration,
-                         .cost = ff_action_cost(r),
+                         .cost = ff_action_cost(r, 1.0f),
                          .land = {r->land[0], r->land[1]},
                          .root_end = {r->root_end[0], r->root_end[1]},
                          .theta = r->theta,
@@ -106,6 +74,7 @@ static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
                          .blend = fminf(BLEND, r->duration - (float)FF_TRACK_STEP),
                          .support = (uint8_t)r->support,
                          .kind = (uint8_t)ff_action_class_of(r),
+                         .pace = 1.0f,
                          .pack_index = pack_index,
                          .reach = r->reach};
     if (r->reach == FF_REACH_NONE && !ff_action_is_platform(r)) set->reach = NULL;
@@ -115,11 +84,52 @@ static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
     take_samples(set, a, r);
 }
 
+/* Walking steps may be done faster and slower; what begins or ends in standing is as it was captured, and runs are (A.13). */
+static bool may_vary(const ff_pack_action *r, float pace)
+{
+    uint32_t ends = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING;
+    float duration = duration_at(r, pace);
+    return (r->mode == FF_MODE_WALK_SHORT || r->mode == FF_MODE_WALK_LONG) && !(r->flags & ends) &&
+           pace != 1.0f && duration >= FF_ACTION_SHORTEST && duration <= FF_ACTION_LONGEST;
+}
+
+/* The same action at another speed: same places, samples and table, other times. */
+static void take_variant(ff_action_set *set, uint32_t index, float pace)
+{
+    ff_set_action *a = &set->actions[set->count];
+    const ff_pack_action *r = &set->pack->actions[set->actions[index].pack_index];
+    if (set->actions[index].variant_count++ == 0) set->actions[index].first_variant = set->count;
+    *a = set->actions[index];
+    a->pace = pace;
+    a->duration = duration_at(r, pace);
+    a->cost = ff_action_cost(r, pace);
+    a->blend = fminf(BLEND, a->duration - (float)FF_TRACK_STEP);
+    a->variant_count = 0;
+    ++set->count;
+}
+
 static int by_cost(const void *x, const void *y)
 {
     const ff_set_next *p = x, *q = y;
     if (p->cost != q->cost) return p->cost < q->cost ? -1 : 1;
     return (p->action > q->action) - (p->action < q->action);
+}
+
+/* A successor at the record's own speed and all others that it is there at. Speeds of two steps differ by no more than they may. */
+static uint32_t add_next(const ff_action_set *set, const ff_set_action *a, uint16_t base, float join,
+                         bool other, ff_set_next *list)
+{
+    const ff_set_action *b = &set->actions[base];
+    const ff_pack_action *r = &set->pack->actions[a->pack_index], *next = &set->pack->actions[b->pack_index];
+    uint32_t n = 0;
+    for (uint32_t v = 0; v <= b->variant_count; ++v) {
+        uint16_t at = v == 0 ? base : (uint16_t)(b->first_variant + v - 1);
+        float faster = set->actions[at].pace * next->speed - a->pace * r->speed;
+        bool own = a->pace == 1.0f && v == 0;
+        if (!own && fabsf(faster) > FASTER) continue;
+        list[n++] = (ff_set_next){at, other, set->actions[at].cost + join, 0.0f};
+    }
+    return n;
 }
 
 /* Successors among the chosen: steps first, then jumps and ducks, each cheapest first. Standing is waited in, not stepped
@@ -138,8 +148,7 @@ static void take_next(ff_action_set *set, uint32_t index, const uint16_t *place)
             const ff_pack_action *next = &pack->actions[s->action];
             if (place[s->action] == UINT16_MAX || next->mode == FF_MODE_IDLE) continue;
             if (ff_action_is_platform(next) != (reactive == 1)) continue;
-            list[n++] = (ff_set_next){place[s->action], next->support != r->swing,
-                                      set->actions[place[s->action]].cost + s->cost, 0.0f};
+            n += add_next(set, a, place[s->action], s->cost, next->support != r->swing, list + n);
         }
         qsort(list, n, sizeof *list, by_cost);
         set->next_total += n;
@@ -161,6 +170,20 @@ static float jump_of(const ff_action_set *set, const ff_set_action *a, const ff_
         most = fmaxf(most, sqrtf(da * da + db * db));
     }
     return most;
+}
+
+/* With its speed varied, what share of its cost at its own speed does a successor (with its joint) cost at least? Then no
+ * sequence costs less than that share of what the reach tables, which know own speeds alone, say. */
+static void measure_reach_share(ff_action_set *set)
+{
+    set->reach_share = 1.0f;
+    for (uint32_t i = 0; i < set->next_total; ++i) {
+        const ff_set_next *next = &set->next[i];
+        const ff_set_action *b = &set->actions[next->action];
+        if (b->pace == 1.0f) continue;
+        float own = ff_action_cost(&set->pack->actions[b->pack_index], 1.0f);
+        set->reach_share = fminf(set->reach_share, next->cost / (next->cost - b->cost + own));
+    }
 }
 
 /* What follows from the lists: how far successors reach, and the least cost per metre. */
@@ -235,79 +258,114 @@ static void find_stops(ff_action_set *set, uint32_t index)
 
 /* ------------------------------------------------------------------------------------------------------ create */
 
-/* Sums over the chosen actions, for the arrays' sizes. */
-static ff_status take_memory(ff_action_set *set, const bool *chosen, ff_error *error)
+/* What a set is made of. */
+typedef struct recipe {
+    bool *usable, *chosen; /* of the pack's actions */
+    const double *speeds;  /* factors; 0: none */
+    uint32_t speed_count;
+    uint32_t stand; /* of the pack */
+} recipe;
+
+/* Is it taken at its n-th other speed? */
+static bool is_varied(const recipe *from, const ff_pack_action *r, uint32_t n)
 {
-    size_t knots = 0, next = 0;
+    return from->speeds[n] > 0.0 && may_vary(r, (float)from->speeds[n]);
+}
+
+/* Sums over the chosen actions, for the arrays' sizes. */
+static ff_status take_memory(ff_action_set *set, const recipe *from, ff_error *error)
+{
+    size_t knots = 0, next = 0, count = 0, fold = 1 + (size_t)from->speed_count;
     for (uint32_t i = 0; i < set->pack->action_count; ++i) {
-        if (!chosen[i]) continue;
-        knots += set->pack->actions[i].collider_samples;
-        next += set->pack->actions[i].successor_count;
+        if (!from->chosen[i]) continue;
+        const ff_pack_action *r = &set->pack->actions[i];
+        size_t times = 1;
+        for (uint32_t n = 0; n < from->speed_count; ++n)
+            times += is_varied(from, r, n);
+        count += times;
+        knots += r->collider_samples;
+        next += times * fold * r->successor_count;
     }
-    set->actions = ff_calloc(set->count, sizeof *set->actions);
+    if (count > UINT16_MAX - 1u)
+        return ff_fail(error, FF_ERR_RANGE, "%zu actions at all speeds; at most %u fit", count,
+                       UINT16_MAX - 1u);
+    set->actions = ff_calloc(count, sizeof *set->actions);
     set->next = ff_calloc(next, sizeof *set->next);
-    set->stops = ff_calloc((size_t)set->count * FF_SET_STOPS_MAX, sizeof *set->stops);
+    set->stops = ff_calloc(count * FF_SET_STOPS_MAX, sizeof *set->stops);
     set->samples = ff_calloc(knots, sizeof *set->samples);
     set->roots = ff_calloc(knots, sizeof *set->roots);
     if (set->actions && set->next && set->stops && set->samples && set->roots) return FF_OK;
-    return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", set->count);
+    return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %zu actions", count);
 }
 
-static ff_status fill(ff_action_set *set, const bool *chosen, uint32_t stand, ff_error *error)
+static ff_status fill(ff_action_set *set, const recipe *from, ff_error *error)
 {
-    uint32_t total = set->pack->action_count, n = 0;
+    uint32_t total = set->pack->action_count;
     uint16_t *place = ff_calloc(total, sizeof *place);
-    if (!place) return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", set->count);
+    if (!place) return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", total);
+    set->count = 0;
     for (uint32_t i = 0; i < total; ++i) {
-        place[i] = chosen[i] ? (uint16_t)n : UINT16_MAX;
-        if (!chosen[i]) continue;
-        if (i == stand) set->stand = n;
-        take_action(set, n++, i);
+        place[i] = from->chosen[i] ? (uint16_t)set->count : UINT16_MAX;
+        if (!from->chosen[i]) continue;
+        if (i == from->stand) set->stand = set->count;
+        take_action(set, set->count++, i);
     }
+    for (uint32_t i = 0, own = set->count; i < own; ++i)
+        for (uint32_t n = 0; n < from->speed_count; ++n)
+            if (is_varied(from, &set->pack->actions[set->actions[i].pack_index], n))
+                take_variant(set, i, (float)from->speeds[n]);
     for (uint32_t i = 0; i < set->count; ++i)
         take_next(set, i, place);
     free(place);
     measure_next(set);
+    measure_reach_share(set);
     for (uint32_t i = 0; i < set->count; ++i)
         find_stops(set, i);
     if (set->actions[set->stand].step_count == 0)
-        return ff_fail(error, FF_ERR_NO_DATA, "nothing may follow the pack's standing (action %u)", stand);
+        return ff_fail(error, FF_ERR_NO_DATA, "nothing may follow the pack's standing (action %u)",
+                       from->stand);
     return FF_OK;
 }
 
-ff_status ff_action_set_create(const ff_pack *pack, uint32_t cap, ff_action_set **out, ff_error *error)
+ff_status ff_action_set_create_varied(const ff_pack *pack, uint32_t cap, const double *speeds,
+                                      uint32_t speed_count, ff_action_set **out, ff_error *error)
 {
     *out = NULL;
     if (cap == 0) cap = FF_ACTIONS_DEFAULT;
     if (cap > UINT16_MAX - 1u) cap = UINT16_MAX - 1u;
-    bool *usable = ff_calloc(pack->action_count, sizeof *usable);
-    bool *chosen = ff_calloc(pack->action_count, sizeof *chosen);
+    recipe from = {.usable = ff_calloc(pack->action_count, sizeof *from.usable),
+                   .chosen = ff_calloc(pack->action_count, sizeof *from.chosen),
+                   .speeds = speeds,
+                   .speed_count = speed_count};
     ff_action_set *set = ff_calloc(1, sizeof *set);
     ff_status status = FF_OK;
-    uint32_t stand = 0;
-    if (!usable || !chosen || !set)
+    if (!from.usable || !from.chosen || !set)
         status = ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", cap);
     else {
         set->pack = pack;
         set->reach = pack->reach;
         for (uint32_t i = 0; i < pack->action_count; ++i)
-            usable[i] = ff_action_is_usable(&pack->actions[i]);
-        set->count = ff_set_select(pack, cap, usable, chosen, &stand);
-        if (set->count == 0)
+            from.usable[i] = ff_action_is_usable(&pack->actions[i]);
+        if (ff_set_select(pack, cap, from.usable, from.chosen, &from.stand) == 0)
             status = ff_fail(
                 error, FF_ERR_NO_DATA,
                 "the pack has no actions to stand, start and stop with; build it without --no-derived");
     }
-    if (status == FF_OK) status = take_memory(set, chosen, error);
-    if (status == FF_OK) status = fill(set, chosen, stand, error);
-    free(usable);
-    free(chosen);
+    if (status == FF_OK) status = take_memory(set, &from, error);
+    if (status == FF_OK) status = fill(set, &from, error);
+    free(from.usable);
+    free(from.chosen);
     if (status != FF_OK) {
         ff_action_set_destroy(set);
         return status;
     }
     *out = set;
     return FF_OK;
+}
+
+ff_status ff_action_set_create(const ff_pack *pack, uint32_t cap, ff_action_set **out, ff_error *error)
+{
+    return ff_action_set_create_varied(pack, cap, NULL, 0, out, error);
 }
 
 void ff_action_set_destroy(ff_action_set *set)
@@ -336,6 +394,11 @@ const ff_pack_action *ff_action_set_record(const ff_action_set *set, uint32_t ac
 uint32_t ff_action_set_pack_index(const ff_action_set *set, uint32_t action)
 {
     return set->actions[action].pack_index;
+}
+
+double ff_action_set_pace(const ff_action_set *set, uint32_t action)
+{
+    return (double)set->actions[action].pace;
 }
 
 uint32_t ff_action_set_stand(const ff_action_set *set)

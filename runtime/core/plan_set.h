@@ -10,6 +10,9 @@
 /* m/s: who is slower loses time, which has a price. As fast as adults walk who are at ease; the cheapest is 1.33. */
 #define FF_WALK_SPEED 1.45f
 
+#define FF_ACTION_SHORTEST 0.2f /* s, of an action that can be planned with */
+#define FF_ACTION_LONGEST 3.0f
+
 enum {
     FF_SET_TO_STANDING = 1,   /* ends in standing */
     FF_SET_FROM_STANDING = 2, /* begins in standing */
@@ -38,8 +41,10 @@ typedef struct ff_set_action {
     uint32_t first_stop, stop_count;             /* into stops */
     uint16_t flags;
     uint8_t support, kind; /* foot; ff_action_class of the end */
+    float pace;            /* factor on the record's speed */
     uint32_t pack_index;
-    uint32_t reach; /* table of the pack */
+    uint32_t first_variant, variant_count; /* the same at other speeds: actions of the set */
+    uint32_t reach;                        /* table of the pack */
 } ff_set_action;
 
 /* What may follow, cheapest first. */
@@ -76,6 +81,7 @@ struct ff_action_set {
     uint32_t next_most; /* successors of one action */
     float stop_cost;    /* J/kg: the cheapest way to a stand, from where that is dearest */
     float rate;         /* J/kg per m: no sequence of actions moves the root further for less */
+    float reach_share;  /* of what the reach tables say: no sequence with speeds varied costs less */
 };
 
 /* Colliders of an action at t seconds from its start, in S0. */
@@ -119,12 +125,12 @@ static inline float ff_set_blend(const ff_set_action *action, float t)
     return 1.0f - x * x * (3.0f - 2.0f * x);
 }
 
-/* Of the pack's records, for whoever prepares plans: can it be walked on level ground; is it a jump or a duck; its class; what
- * it costs, J/kg with penalties (algorithms B.2) and with the price of the time that it loses over walking. */
+/* Of the pack's records (plan_action.c), for whoever prepares plans: can it be walked on level ground; is it a jump or a duck; its class; what
+ * it costs at a pace, J/kg with penalties (algorithms B.2) and with the price of the time that it loses over walking. */
 bool ff_action_is_usable(const ff_pack_action *record);
 bool ff_action_is_platform(const ff_pack_action *record);
 ff_action_class ff_action_class_of(const ff_pack_action *record);
-float ff_action_cost(const ff_pack_action *record);
+float ff_action_cost(const ff_pack_action *record, float pace);
 
 /* Which actions of the pack to take: marks chosen[], at most cap; returns how many (plan_select.c). */
 uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *chosen, uint32_t *stand);

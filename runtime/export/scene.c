@@ -20,8 +20,8 @@ const char *ff_scene_kind_name(ff_scene_kind kind)
 #define COMMON_KEYS                                                                                          \
     "kind", "title", "seconds", "step", "seed", "at_goal", "agents", "agent_radius", "preferred_speed",      \
         "preferred_speed_spread", "goal_tolerance", "walls", "navigation", "synthesis", "body_scale", "mcn", \
-        "baseline", "planner", "obstacles", "goals", "regions", "signals", "variables", "behaviours",        \
-        "behaviour", "groups", "spawners"
+        "baseline", "planner", "speed_variations", "obstacles", "goals", "regions", "signals", "variables",  \
+        "behaviours", "behaviour", "groups", "spawners"
 
 static const char *const circle_keys[] = {COMMON_KEYS, "radius", "jitter", NULL};
 static const char *const two_way_keys[] = {COMMON_KEYS, "spacing", "jitter", "distance", NULL};

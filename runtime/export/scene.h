@@ -35,8 +35,9 @@ typedef struct ff_scene_navigation {
     ff_navigation method;
     ff_synthesis synthesis;
     ff_planner planner;
-    double body_scale; /* bodies differ in size by up to so much */
-    double keep_right; /* rad, of MCN */
+    double speed_variations[FF_SPEED_VARIATIONS_MAX]; /* of walking steps, for those who plan them; 0: none */
+    double body_scale;                                /* bodies differ in size by up to so much */
+    double keep_right;                                /* rad, of MCN */
     ff_mcn_def mcn;
     ff_baseline_def baseline;
 } ff_scene_navigation;
@@ -103,8 +104,10 @@ ff_status ff_scene_method_read(const ff_json *json, const json_t *object, ff_nav
 ff_status ff_scene_synthesis_read(const ff_json *json, const json_t *object, ff_synthesis *out,
                                   ff_error *error);
 
-/* Footsteps (scene_footsteps.c): "planner" of the scene or of one of its agents, an agent's "waypoints", the scene's "obstacles". */
+/* Footsteps (scene_footsteps.c): "planner" of the scene or of one of its agents, an agent's "waypoints", the scene's "obstacles" and
+ * "speed_variations". */
 ff_status ff_scene_planner_read(const ff_json *json, const json_t *object, ff_planner *out, ff_error *error);
+ff_status ff_scene_speeds_read(const ff_json *json, double out[FF_SPEED_VARIATIONS_MAX], ff_error *error);
 ff_status ff_scene_waypoints_read(const ff_json *json, const json_t *object, ff_scene_agent *out,
                                   ff_error *error);
 ff_status ff_scene_obstacles_read(const ff_json *json, ff_array *out, ff_error *error);

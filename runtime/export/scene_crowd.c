@@ -1,5 +1,7 @@
 #include "runtime/export/scene_crowd.h"
 
+#include <string.h>
+
 #define FF_SCENE_OBSTACLE_WALLS 8 /* that velocity navigation sees of one, at most */
 
 ff_crowd_def ff_scene_crowd_def(const ff_scene *scene, ff_behaviour_def *behaviour)
@@ -13,6 +15,8 @@ ff_crowd_def ff_scene_crowd_def(const ff_scene *scene, ff_behaviour_def *behavio
     def.navigation = scene->navigation.method;
     def.synthesis = scene->navigation.synthesis;
     def.planner = scene->navigation.planner;
+    memcpy(def.footsteps.speed_variations, scene->navigation.speed_variations,
+           sizeof def.footsteps.speed_variations);
     const ff_scene_agent *agents = ff_scene_agents(scene);
     for (uint32_t i = 0; i < ff_scene_agent_count(scene); ++i)
         def.footsteps.mixed = def.footsteps.mixed || agents[i].planner == FF_PLANNER_FOOTSTEPS;

@@ -41,6 +41,23 @@ ff_status ff_scene_planner_read(const ff_json *json, const json_t *object, ff_pl
     return FF_OK;
 }
 
+ff_status ff_scene_speeds_read(const ff_json *json, double out[FF_SPEED_VARIATIONS_MAX], ff_error *error)
+{
+    const json_t *list = json_object_get(json->root, "speed_variations");
+    if (!list) return FF_OK;
+    size_t count = json_array_size(list);
+    bool good = json_is_array(list) && count <= FF_SPEED_VARIATIONS_MAX;
+    for (size_t i = 0; i < count && good; ++i) {
+        const json_t *factor = json_array_get(list, i);
+        good = json_is_number(factor) && json_number_value(factor) >= 0.5 && json_number_value(factor) <= 1.5;
+        if (good) out[i] = json_number_value(factor);
+    }
+    if (good) return FF_OK;
+    return ff_json_fail_key(json, json->root, "speed_variations", error,
+                            "speed_variations is a list of at most %d factors, 0.5 to 1.5",
+                            FF_SPEED_VARIATIONS_MAX);
+}
+
 ff_status ff_scene_waypoints_read(const ff_json *json, const json_t *object, ff_scene_agent *out,
                                   ff_error *error)
 {

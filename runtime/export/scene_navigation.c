@@ -32,8 +32,13 @@ ff_synthesis ff_synthesis_named(const char *name)
 ff_scene_navigation ff_scene_navigation_default(void)
 {
     ff_crowd_def def = ff_crowd_def_default();
-    return (ff_scene_navigation){def.navigation, def.synthesis, def.planner, def.body_scale,
-                                 def.keep_right, def.mcn,       def.baseline};
+    return (ff_scene_navigation){.method = def.navigation,
+                                 .synthesis = def.synthesis,
+                                 .planner = def.planner,
+                                 .body_scale = def.body_scale,
+                                 .keep_right = def.keep_right,
+                                 .mcn = def.mcn,
+                                 .baseline = def.baseline};
 }
 
 /* Go on only while nothing went wrong. */
@@ -114,6 +119,7 @@ ff_status ff_scene_navigation_read(const ff_json *json, ff_scene_navigation *out
     ff_status status = ff_scene_method_read(json, json->root, &out->method, error);
     TRY(ff_scene_synthesis_read(json, json->root, &out->synthesis, error));
     TRY(ff_scene_planner_read(json, json->root, &out->planner, error));
+    TRY(ff_scene_speeds_read(json, out->speed_variations, error));
     TRY(ff_json_number(json, json->root, "body_scale", 0.0, 0.15, &out->body_scale, error));
     TRY(read_mcn(json, out, error));
     TRY(read_part(json, "baseline", baseline_keys, &part, error));

@@ -42,9 +42,24 @@ typedef struct contacts {
     const ff_bench_options *options;
     const ff_pack *pack;
     const ff_figure *figure;
+    const char *speeds; /* or NULL: factors, between commas, at which walking steps are there, too */
     contact_row row[ROWS];
     int count;
 } contacts;
+
+/* False when it is no list of factors. */
+static bool take_speeds(const char *list, double out[FF_SPEED_VARIATIONS_MAX])
+{
+    for (int i = 0; list && *list; ++i) {
+        char *end;
+        double factor = strtod(list, &end);
+        if (i == FF_SPEED_VARIATIONS_MAX || end == list || (*end != ',' && *end != '\0')) return false;
+        if (!(factor >= 0.5 && factor <= 1.5)) return false;
+        out[i] = factor;
+        list = *end ? end + 1 : end;
+    }
+    return true;
+}
 
 static ff_walk_trial trial_of(const contacts *all, const contact_row *row, int64_t seed)
 {
@@ -60,6 +75,7 @@ static ff_walk_trial trial_of(const contacts *all, const contact_row *row, int64
     trial.footsteps.paper = row->method[0] == 'p';
     trial.footsteps.nodes = row->nodes;
     trial.footsteps.seconds = 1e-3 * row->budget_ms;
+    take_speeds(all->speeds, trial.footsteps.speed_variations);
     return trial;
 }
 
@@ -186,12 +202,12 @@ static ff_status write_files(contacts *all, ff_error *error)
     return status == FF_OK ? ff_footstep_scenes_draw(all->pack, options->out, error) : status;
 }
 
-static int run_fig10(const ff_bench_options *options, const char *scene)
+static int run_fig10(const ff_bench_options *options, const char *scene, const char *speeds)
 {
     ff_error error = {0};
     ff_pack *pack = NULL;
     ff_figure figure;
-    contacts all = {.options = options, .figure = &figure};
+    contacts all = {.options = options, .figure = &figure, .speeds = speeds};
     uint64_t runs = 0;
     ff_status status = ff_pack_open(options->pack, &pack, &error);
     all.pack = pack;
@@ -218,11 +234,18 @@ int ff_bench_fig10_main(int argc, char **argv)
 {
     ff_bench_options given = {.seeds = 100, .first_seed = 1, .threads = 1};
     const char *scene = NULL;
-    const ff_option own[] = {{.name = "--scene",
-                              .value_name = "NAME",
-                              .help = "four, circle or crossing (default: all)",
-                              .text = &scene},
-                             {0}};
+    const char *speeds = NULL;
+    double factors[FF_SPEED_VARIATIONS_MAX];
+    const ff_option own[] = {
+        {.name = "--scene",
+         .value_name = "NAME",
+         .help = "four, circle or crossing (default: all)",
+         .text = &scene},
+        {.name = "--speeds",
+         .value_name = "LIST",
+         .help = "walking steps at these factors on their speed, too, as 0.8,1.25 (default: none)",
+         .text = &speeds},
+        {0}};
     const ff_bench_command command = {
         .name = "bench fig10",
         .summary = "how bodies get past each other on footsteps",
@@ -236,6 +259,8 @@ int ff_bench_fig10_main(int argc, char **argv)
     bool known = !scene;
     for (int i = 0; i < ROWS; ++i)
         known = known || (scene && strcmp(scene, rows[i].scene) == 0);
-    return known ? run_fig10(&given, scene)
+    if (!take_speeds(speeds, factors))
+        return ff_bench_misuse(&command, "--speeds", speeds, "at most 4 factors, 0.5 to 1.5");
+    return known ? run_fig10(&given, scene, speeds)
                  : ff_bench_misuse(&command, "--scene", scene, "four, circle or crossing");
 }

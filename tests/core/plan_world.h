@@ -10,8 +10,8 @@
 
 typedef struct plan_world {
     ff_pack *pack;
-    ff_action_set *set, *few; /* the default ones; a handful */
-    ff_plan_scratch *scratch, *few_scratch;
+    ff_action_set *set, *few, *varied; /* the default ones; a handful; these, walking steps at three speeds */
+    ff_plan_scratch *scratch, *few_scratch, *varied_scratch;
 } plan_world;
 
 static inline int plan_world_open(void **state)
@@ -21,8 +21,11 @@ static inline int plan_world_open(void **state)
     FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &w.pack, &error), error);
     FF_ASSERT_OK(ff_action_set_create(w.pack, 0, &w.set, &error), error);
     FF_ASSERT_OK(ff_action_set_create(w.pack, 24, &w.few, &error), error);
+    FF_ASSERT_OK(ff_action_set_create_varied(w.pack, 24, (const double[]){0.75, 1.25}, 2, &w.varied, &error),
+                 error);
     FF_ASSERT_OK(ff_plan_scratch_create(w.set, 20000, &w.scratch, &error), error);
     FF_ASSERT_OK(ff_plan_scratch_create(w.few, 40000, &w.few_scratch, &error), error);
+    FF_ASSERT_OK(ff_plan_scratch_create(w.varied, 40000, &w.varied_scratch, &error), error);
     *state = &w;
     return 0;
 }
@@ -30,8 +33,10 @@ static inline int plan_world_open(void **state)
 static inline int plan_world_close(void **state)
 {
     plan_world *w = *state;
+    ff_plan_scratch_destroy(w->varied_scratch);
     ff_plan_scratch_destroy(w->few_scratch);
     ff_plan_scratch_destroy(w->scratch);
+    ff_action_set_destroy(w->varied);
     ff_action_set_destroy(w->few);
     ff_action_set_destroy(w->set);
     ff_pack_close(w->pack);

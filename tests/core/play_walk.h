@@ -74,6 +74,7 @@ typedef struct play_chain {
     ff_play_foot feet[2];
     double heading, time;
     uint32_t last;
+    bool vary; /* walking steps at three quarters to five quarters of their speed */
 } play_chain;
 
 static inline bool play_may_follow(const ff_pack_action *action)
@@ -94,6 +95,14 @@ static inline void play_chain_begin(const play_world *w, ff_play *play, play_cha
     chain->feet[1] = play->step[0].foot[1];
 }
 
+static inline double play_chain_pace(play_chain *chain, const ff_pack_action *action)
+{
+    bool walks = action->mode == FF_MODE_WALK_SHORT || action->mode == FF_MODE_WALK_LONG;
+    uint32_t ends = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING;
+    return chain->vary && walks && !(action->flags & ends) ? ff_random_range(&chain->random, 0.75, 1.25)
+                                                           : 1.0;
+}
+
 /* The next action; false where the pack has none that can be walked. */
 static inline bool play_chain_next(const play_world *w, ff_play *play, play_chain *chain, ff_play_order *out)
 {
@@ -104,11 +113,12 @@ static inline bool play_chain_next(const play_world *w, ff_play *play, play_chai
         const ff_pack_action *action = &w->pack->actions[next];
         if (!play_may_follow(action) || !chain->feet[action->support].planted) continue;
         const ff_play_foot *foot = &chain->feet[action->support];
-        *out = (ff_play_order){next, 0, chain->time, 1.0, {foot->a, foot->b}, chain->heading};
+        *out = (ff_play_order){
+            next, 0, chain->time, play_chain_pace(chain, action), {foot->a, foot->b}, chain->heading};
         ff_play_next(w->set, play, out);
         ff_play_feet_after(w->set, &play->step[1], chain->feet);
         chain->heading += (double)action->theta;
-        chain->time += w->set->actions[next].duration;
+        chain->time += w->set->actions[next].duration / out->pace;
         chain->last = next;
         return true;
     }

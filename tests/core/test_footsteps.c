@@ -259,6 +259,8 @@ static void a_crowd_on_footsteps_is_saved_and_goes_on_to_the_bit(void **state)
 {
     (void)state;
     ff_crowd_def def = footsteps_def(AGENTS);
+    def.footsteps.speed_variations[0] = 0.8;
+    def.footsteps.speed_variations[3] = 1.2;
     ff_crowd *crowd = crowd_of(&def), *loaded;
     ff_agent agent[AGENTS];
     ff_error error;
@@ -266,6 +268,10 @@ static void a_crowd_on_footsteps_is_saved_and_goes_on_to_the_bit(void **state)
     FF_ASSERT_OK(ff_crowd_add_obstacle(crowd, &post, NULL, &error), error);
     add_circle(crowd, AGENTS, 5.0, true, agent);
     go(crowd, 4.0);
+    uint32_t varied = 0;
+    for (uint32_t i = 0; i < AGENTS; ++i)
+        varied += crowd->steppers[i].play.step[0].pace != 1.0;
+    assert_true(varied > 0);
     size_t size = ff_crowd_save_size(crowd);
     void *data = malloc(size);
     assert_non_null(data);

@@ -148,7 +148,8 @@ static void test_the_way_of_navigating_is_read_with_all_its_parts(void **state)
     FF_ASSERT_NEAR(scene.navigation.keep_right, usual.keep_right, 0.0);
     ff_scene_free(&scene);
     walker_scene(
-        "{\"kind\": \"circle\", \"navigation\": \"sf\", \"synthesis\": \"semi-procedural\", \"mcn\": "
+        "{\"kind\": \"circle\", \"navigation\": \"sf\", \"synthesis\": \"semi-procedural\", "
+        "\"speed_variations\": [0.8, 1.1], \"mcn\": "
         "{\"stance\": false, \"back_pedal\": true, "
         "\"facing\": \"strafe\", \"keep_right\": -0.2, \"padding\": 0.1, \"prediction\": 0}, \"baseline\": "
         "{\"keep_right\": 0.3, \"padding\": 0.02, \"model_velocity\": true}}",
@@ -158,6 +159,8 @@ static void test_the_way_of_navigating_is_read_with_all_its_parts(void **state)
     assert_int_equal(navigation->synthesis, FF_SYNTHESIS_SEMI_PROCEDURAL);
     assert_true(navigation->mcn.hull && !navigation->mcn.stance && navigation->mcn.back_pedal);
     assert_int_equal(navigation->mcn.facing, FF_FACING_STRAFE);
+    const double speeds[FF_SPEED_VARIATIONS_MAX] = {0.8, 1.1};
+    assert_memory_equal(navigation->speed_variations, speeds, sizeof speeds);
     FF_ASSERT_NEAR(navigation->keep_right, -0.2, 0.0);
     FF_ASSERT_NEAR(navigation->mcn.padding, 0.1, 0.0);
     FF_ASSERT_NEAR(navigation->mcn.prediction, 0.0, 0.0);
@@ -209,6 +212,9 @@ static void test_every_mistake_is_named_with_its_line(void **state)
         {"{\"kind\": \"circle\",\n\"baseline\": {\"stance\": true}}", "stance", 2},
         {"{\"kind\": \"circle\",\n\"planner\": \"feet\"}", "feet", 2},
         {"{\"kind\": \"circle\",\n\"planner\": 2}", "planner", 2},
+        {"{\"kind\": \"circle\",\n\"speed_variations\": 2}", "speed_variations", 2},
+        {"{\"kind\": \"circle\",\n\"speed_variations\": [0.9, 3]}", "factors", 2},
+        {"{\"kind\": \"circle\",\n\"speed_variations\": [1, 1, 1, 1, 1]}", "at most 4", 2},
         {"{\"kind\": \"circle\",\n\"obstacles\": 2}", "obstacles", 2},
         {"{\"kind\": \"circle\",\n\"obstacles\": [{\"radius\": 1}]}", "position", 2},
         {"{\"kind\": \"circle\",\n\"obstacles\": [{\"position\": [0]}]}", "[x, z]", 2},

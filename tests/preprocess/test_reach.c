@@ -8,7 +8,7 @@
 
 typedef struct fixture {
     ff_pack *pack;
-    ff_action_set *set;
+    ff_action_set *set, *varied; /* varied: walking steps at three speeds */
 } fixture;
 
 static int open_pack(void **state)
@@ -17,6 +17,8 @@ static int open_pack(void **state)
     ff_error error;
     FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &f.pack, &error), error);
     FF_ASSERT_OK(ff_action_set_create(f.pack, 0, &f.set, &error), error);
+    FF_ASSERT_OK(ff_action_set_create_varied(f.pack, 0, (const double[]){0.75, 1.25}, 2, &f.varied, &error),
+                 error);
     *state = &f;
     return 0;
 }
@@ -25,6 +27,7 @@ static int close_pack(void **state)
 {
     fixture *f = *state;
     ff_action_set_destroy(f->set);
+    ff_action_set_destroy(f->varied);
     ff_pack_close(f->pack);
     return 0;
 }
@@ -67,42 +70,65 @@ static double table_cost(const ff_pack *pack, const ff_pack_action *r, ff_vec2 g
     return (double)FF_REACH_UNIT * pack->reach[r->reach].cost[i][k];
 }
 
-static void nothing_gets_anywhere_for_less(void **state)
+/* Ways that cost less than share of what the table says. */
+typedef struct cheap_ways {
+    int looked, less;
+    double worst; /* J/kg */
+} cheap_ways;
+
+static cheap_ways walk_about(const fixture *f, const ff_action_set *set, int walks, double share)
 {
-    const fixture *f = *state;
     ff_random random = {7, 0, 0};
-    int looked = 0, less = 0;
-    double worst = 0.0;
-    for (int walk = 0; walk < 60000; ++walk) {
-        uint32_t first = (uint32_t)(ff_random_unit(&random) * f->set->count), at = first;
-        const ff_pack_action *begin = ff_action_set_record(f->set, first);
+    cheap_ways out = {0, 0, 0.0};
+    for (int walk = 0; walk < walks; ++walk) {
+        uint32_t first = (uint32_t)(ff_random_unit(&random) * set->count), at = first;
+        const ff_pack_action *begin = ff_action_set_record(set, first);
         if (begin->reach == FF_REACH_NONE) continue;
         joint j = joint_at_start(begin);
         double cost = 0.0;
         for (int step = 0; step < 5; ++step) {
-            const ff_set_action *a = &f->set->actions[at];
+            const ff_set_action *a = &set->actions[at];
             if (a->step_count == 0) break;
             const ff_set_next *next =
-                &f->set->next[a->first_next + (uint32_t)(ff_random_unit(&random) * a->step_count)];
-            ff_vec2 root =
-                follow(&j, ff_action_set_record(f->set, at), ff_action_set_record(f->set, next->action));
+                &set->next[a->first_next + (uint32_t)(ff_random_unit(&random) * a->step_count)];
+            ff_vec2 root = follow(&j, ff_action_set_record(set, at), ff_action_set_record(set, next->action));
             cost += (double)next->cost;
             at = next->action;
-            if (!(f->set->actions[at].flags & FF_SET_TO_STANDING)) continue;
+            if (!(set->actions[at].flags & FF_SET_TO_STANDING)) continue;
             /* A goal whose whole cell lies within the radius of where the root is now. */
             ff_vec2 goal = ff_madd2(root, ff_fwd2(ff_random_range(&random, -FF_PI, FF_PI)),
                                     0.2 * sqrt(ff_random_unit(&random)));
-            double least = table_cost(f->pack, begin, goal);
+            double least = share * table_cost(f->pack, begin, goal);
             if (least < 0.0) continue;
-            ++looked;
-            less += least > cost;
-            worst = ff_max(worst, least - cost);
+            ++out.looked;
+            out.less += least > cost;
+            out.worst = ff_max(out.worst, least - cost);
         }
     }
-    printf("  %d ways: %d cost less than the table says, by at most %.2f J/kg\n", looked, less, worst);
-    assert_true(looked > 50000);
-    FF_ASSERT_BELOW((double)less, 2e-3 * looked); /* the lattice */
-    FF_ASSERT_BELOW(worst, 0.5);
+    printf("  %d ways: %d cost less than %.3f of what the table says, by at most %.2f J/kg\n", out.looked,
+           out.less, share, out.worst);
+    return out;
+}
+
+static void nothing_gets_anywhere_for_less(void **state)
+{
+    const fixture *f = *state;
+    cheap_ways own = walk_about(f, f->set, 60000, 1.0);
+    assert_true(own.looked > 50000);
+    FF_ASSERT_BELOW((double)own.less, 2e-3 * own.looked); /* the lattice */
+    FF_ASSERT_BELOW(own.worst, 0.5);
+}
+
+static void at_other_speeds_it_costs_no_less_than_the_set_says(void **state)
+{
+    const fixture *f = *state;
+    double share = (double)f->varied->reach_share;
+    assert_true(f->varied->count > f->set->count + 20 && share < 1.0 && share > 0.5);
+    assert_true(f->set->reach_share == 1.0f);
+    cheap_ways ways = walk_about(f, f->varied, 60000, share);
+    assert_true(ways.looked > 20000);
+    FF_ASSERT_BELOW((double)ways.less, 2e-3 * ways.looked);
+    FF_ASSERT_BELOW(ways.worst, 0.5);
 }
 
 static void straight_on_costs_what_walking_costs_and_turning_round_costs_more(void **state)
@@ -127,6 +153,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_gets_anywhere_for_less),
+        cmocka_unit_test(at_other_speeds_it_costs_no_less_than_the_set_says),
         cmocka_unit_test(straight_on_costs_what_walking_costs_and_turning_round_costs_more),
     };
     return cmocka_run_group_tests(tests, open_pack, close_pack);
