@@ -173,10 +173,7 @@ static void threads_saving_and_loading_change_no_bit(void **state)
 
 /* ------------------------------------------------------------------------------------ machines of two states */
 
-#define ALWAYS                                                                                               \
-    {                                                                                                        \
-        .kind = FF_IF_ALWAYS                                                                                 \
-    }
+static const ff_condition_def always = {.kind = FF_IF_ALWAYS};
 
 /* Two states that lead to each other. */
 typedef struct pair {
@@ -250,7 +247,7 @@ static void states_that_lead_round_without_time_are_a_fault_and_the_crowd_goes_o
     pair p;
     ff_error error;
     ff_agent agent;
-    make_pair(&p, (ff_condition_def)ALWAYS, (ff_condition_def)ALWAYS);
+    make_pair(&p, always, always);
     ff_crowd *crowd = crowd_of(&p.def);
     assert_int_equal(add(crowd, ff_v2(0, 0), 0, &agent), FF_OK);
     FF_ASSERT_OK(ff_crowd_fault(crowd, &error), error);
@@ -299,7 +296,8 @@ static void who_cannot_go_notices_that_the_way_is_blocked(void **state)
     pair p;
     ff_error error;
     ff_agent agent;
-    make_pair(&p, (ff_condition_def){.kind = FF_IF_BLOCKED, .amount = {.a = 1.0}}, (ff_condition_def)ALWAYS);
+    ff_condition_def blocked = {.kind = FF_IF_BLOCKED, .amount = {.a = 1.0}};
+    make_pair(&p, blocked, always);
     p.states[1].transition_count = 0;
     ff_crowd *crowd = crowd_of(&p.def);
     /* A cage. */
@@ -321,7 +319,8 @@ static void the_state_and_the_caller_share_the_speed(void **state)
     pair p;
     ff_error error;
     ff_agent agent;
-    make_pair(&p, (ff_condition_def){.kind = FF_IF_TIMER, .amount = {.a = 3.0}}, (ff_condition_def)ALWAYS);
+    ff_condition_def timer = {.kind = FF_IF_TIMER, .amount = {.a = 3.0}};
+    make_pair(&p, timer, always);
     p.states[1].transition_count = 0;
     p.goals[1].place.centre = ff_v2(30, 0);
     p.goals[0].place.centre = ff_v2(30, 0);
@@ -390,7 +389,8 @@ static void spawners_put_in_as_many_as_they_say_where_there_is_room(void **state
 {
     (void)state;
     pair p;
-    make_pair(&p, (ff_condition_def){.kind = FF_IF_ARRIVED, .amount = {.a = 0.5}}, (ff_condition_def)ALWAYS);
+    ff_condition_def arrived = {.kind = FF_IF_ARRIVED, .amount = {.a = 0.5}};
+    make_pair(&p, arrived, always);
     p.states[0].choice = FF_CHOOSE_OFFSET;
     p.states[0].offset = ff_v2(6.0, 0.0);
     p.states[1].choice = FF_CHOOSE_IDENTITY;
