@@ -15,8 +15,8 @@
 #define PASS_ASIDE 0.08      /* m between ankles as one passes the other (gait facts: people 8.7 to 9.4 cm) */
 #define PASS_AHEAD 0.30      /* m, from where on ankles are not beside each other */
 #define LEAST_SPREAD 0.11    /* m between balls sideways while the feet are side by side */
-#define LEAST_HEELS 0.08     /* m, the same between ankles ... */
-#define LEAST_HEELS_AHEAD 0.15  /* ... as long as they are beside each other */
+#define LEAST_HEELS 0.08     /* m, the same between ankles beside each other ... */
+#define HEELS_GIVE 7.0       /* 1/m: ... and less by this times the square of how far one is ahead */
 #define LEAST_SPREAD_AHEAD 0.30 /* m, from where on one foot in front of the other may be in line with it */
 
 /* Mean over the next time s of a rate that changes by acceleration until it is zero, or for SPEED_UP_TIME. */
@@ -228,8 +228,8 @@ static void keep_sides(const ff_body_frame *body, const ff_gait_foot *other, int
     ff_vec2 heels = ff_to_frame2(
         forward, ff_sub2(ankle_ground(body, foot, *plan), ankle_ground(body, 1 - foot, other->lock)));
     double wanted = LEAST_SPREAD * (1.0 - ff_smooth(fabs(balls.a) / LEAST_SPREAD_AHEAD));
-    double beside = 1.0 - ff_smooth(fabs(heels.a) / LEAST_HEELS_AHEAD);
-    double missing = ff_max(wanted - side * balls.b, beside * (LEAST_HEELS - side * heels.b));
+    double apart = LEAST_HEELS - HEELS_GIVE * heels.a * heels.a;
+    double missing = ff_max(wanted - side * balls.b, apart - side * heels.b);
     if (missing <= 0.0) return;
     ff_vec2 push = ff_scale2(ff_left2(forward), side * missing);
     plan->a += push.a;
@@ -349,6 +349,7 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     keep_sides(&scene->space->body, other, foot, &wanted);
     if (first) state->lock = wanted;
     replan(state, wanted, state->progress, scene->dt);
+    keep_sides(&scene->space->body, other, foot, &state->lock);
     fly(scene, state, other, foot, landing,
         standing_slope(clip_foot_speed(scene, foot, start, time, landing)), time);
     return false;
