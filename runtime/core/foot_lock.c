@@ -257,9 +257,10 @@ static double soft_max(double x, double y, double round)
     return x + 0.5 * (over + sqrt(over * over + round * round));
 }
 
-void ff_foot_clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot, double ease)
+/* Raise a swinging ball over an arc above the floor, and the heel over the floor until it strikes. */
+static void clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot)
 {
-    double arc = 4.0 * state->progress * (1.0 - state->progress), round = 0.01 * arc * ease;
+    double arc = 4.0 * state->progress * (1.0 - state->progress), round = 0.01 * arc;
     double heel = body->ball_rest + heel_rise(body, foot, state->pitch) +
                   HEEL_CLEARANCE * arc * ff_smooth((STRIKE - state->progress) / 0.3);
     state->now.height = soft_max(state->now.height, body->ball_rest + LEAST_LIFT * arc * arc, round);
@@ -277,13 +278,23 @@ static double height_offset(const ff_gait_foot *state, ff_foothold to, ff_footho
     return 0.0;
 }
 
+/* Ground point under the ankle of a foot as it is. */
+static ff_vec2 ankle_now(const ff_body_frame *body, const ff_gait_foot *state, int foot)
+{
+    ff_vec3 to_ball = body->offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+    double sine, cosine;
+    ff_sincos(state->pitch, &sine, &cosine);
+    return ff_madd2(ff_v2(state->now.a, state->now.b), ff_fwd2(state->now.yaw),
+                    to_ball.y * sine - to_ball.z * cosine);
+}
+
 /* Push a foot that swings past the standing one out to the side, so that ankles do not brush (study, section 5). */
 static void pass_beside(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
 {
     const ff_body_frame *body = &scene->space->body;
     ff_vec2 forward = ff_fwd2(scene->heading), left = ff_left2(forward);
-    ff_vec2 apart = ff_to_frame2(
-        forward, ff_sub2(ankle_ground(body, foot, state->now), ankle_ground(body, 1 - foot, other->now)));
+    ff_vec2 apart =
+        ff_to_frame2(forward, ff_sub2(ankle_now(body, state, foot), ankle_now(body, other, 1 - foot)));
     double arc = 4.0 * state->progress * (1.0 - state->progress), side = foot == 0 ? 1.0 : -1.0;
     double near = arc * (1.0 - ff_smooth(fabs(apart.a) / PASS_AHEAD));
     double push = near * soft_max(0.0, PASS_ASIDE - side * apart.b, 0.02);
@@ -306,8 +317,8 @@ static void set_off(ff_gait_foot *state)
 
 /* The foot now: the clip's, with an offset between that of the old lock and that of the new one. landing: the clip's
  * foot at the landing, time s from now. */
-static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot,
-                ff_foothold landing, ff_foothold slope, double time)
+static void fly(const ff_foot_scene *scene, ff_gait_foot *state, int foot, ff_foothold landing,
+                ff_foothold slope, double time)
 {
     double s = state->progress, span = state->elapsed + time;
     ff_foothold to = subtract(state->lock, landing);
@@ -324,8 +335,14 @@ static void fly(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_f
         scene->heading + hermite(s, state->from.yaw, state->slope.yaw * span, to_yaw, -turn * span);
     state->pitch = sample.pitch + hermite(s, state->from_pitch, 0.0, 0.0, 0.0);
     set_off(state);
+}
+
+void ff_foot_keep_clear(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
+{
+    state->path = state->now;
+    if (state->planted) return;
     pass_beside(scene, state, other, foot);
-    ff_foot_clear_floor(&scene->space->body, state, foot, 1.0);
+    clear_floor(&scene->space->body, state, foot);
 }
 
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
@@ -350,7 +367,7 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     if (first) state->lock = wanted;
     replan(state, wanted, state->progress, scene->dt);
     keep_sides(&scene->space->body, other, foot, &state->lock);
-    fly(scene, state, other, foot, landing,
-        standing_slope(clip_foot_speed(scene, foot, start, time, landing)), time);
+    fly(scene, state, foot, landing, standing_slope(clip_foot_speed(scene, foot, start, time, landing)),
+        time);
     return false;
 }

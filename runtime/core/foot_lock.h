@@ -51,8 +51,8 @@ void ff_foot_rest(const ff_body_frame *body, ff_gait_foot *state, int foot);
 /* One step of a swing; other is the foot on the ground. Returns true when it is time to land. */
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot);
 
-/* Raise a swinging ball over an arc above the floor, and the heel over the floor until it strikes. ease: 1 rounds the corner
- * where that begins, 0 changes nothing of a foot that is clear already. */
-void ff_foot_clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot, double ease);
+/* After either, and whatever was added to where the foot is: in swing it goes past the other ankle, not through it, and over the
+ * floor. By construction: what it does is no part of the path, which a switch takes over and the next step starts from. */
+void ff_foot_keep_clear(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot);
 
 #endif

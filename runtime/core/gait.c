@@ -31,8 +31,6 @@
     0.6 /* u: how much of its stance a foot that is left behind may skip; more, and it would hang in the air */
 #define LEAST_SWING 0.3 /* u: a swing that would be shorter is left out */
 
-#define CLEAR_EASE 0.1 /* s after a switch, which itself must not move a foot */
-
 size_t ff_gait_size(void)
 {
     return sizeof(ff_gait);
@@ -223,7 +221,6 @@ static void add_offset(const ff_foot_scene *scene, const ff_pose_offset *offset,
     state->now.a += moved.a;
     state->now.b += moved.b;
     state->now.yaw += add.yaw;
-    ff_foot_clear_floor(&scene->space->body, state, foot, ff_min(offset->age / CLEAR_EASE, 1.0));
 }
 
 static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
@@ -240,6 +237,7 @@ static void step_foot(const ff_foot_scene *scene, ff_gait *gait, int foot)
         ff_foot_hold(scene, state, foot, flat);
     }
     add_offset(scene, &gait->offset, state, foot);
+    ff_foot_keep_clear(scene, state, &gait->foot[1 - foot], foot);
 }
 
 static void follow_rates(ff_gait *gait, ff_rates rates, double dt)

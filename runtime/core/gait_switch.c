@@ -128,9 +128,9 @@ void ff_gait_targets(const ff_blend_space *space, const ff_gait *gait, const ff_
     ff_vec2 ahead = ff_fwd2(root->heading);
     for (int f = 0; f < 2; ++f) {
         const ff_gait_foot *foot = &gait->foot[f];
-        ff_vec2 at = ff_to_frame2(ahead, ff_sub2(ff_v2(foot->now.a, foot->now.b), root->position));
-        out->foot[f] =
-            (ff_pose_foot){at.a, at.b, foot->now.height, ff_wrap(foot->now.yaw - root->heading), foot->pitch};
+        ff_vec2 at = ff_to_frame2(ahead, ff_sub2(ff_v2(foot->path.a, foot->path.b), root->position));
+        out->foot[f] = (ff_pose_foot){at.a, at.b, foot->path.height, ff_wrap(foot->path.yaw - root->heading),
+                                      foot->pitch};
     }
 }
 

@@ -15,6 +15,7 @@ typedef struct ff_foothold {
 typedef struct ff_gait_foot {
     ff_foothold lock; /* planted: where it stands; in swing: where it will land */
     ff_foothold now;  /* where the ball is */
+    ff_foothold path; /* ... and would be if it had nothing to keep clear of */
     ff_foothold
         from; /* in swing: offset from the clip's foot when it left the ground (yaw: from the heading) */
     ff_foothold slope; /* 1/s, of that offset */
