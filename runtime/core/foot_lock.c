@@ -9,7 +9,8 @@
 #define SPEED_UP_TIME 0.1    /* s, for which a root that speeds up is taken to go on doing so */
 #define LEAST_LIFT 0.035     /* m, of the ball in mid swing (study, section 5: 4.5 cm for small steps) */
 #define HEEL_CLEARANCE 0.015 /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
-#define STRIKE 0.9           /* of the swing, which lasts until the foot is flat: the heel is down */
+#define STRIKE 0.9           /* of the swing, which lasts until the foot is flat: the heel is down, */
+#define STRIKES_FROM 0.22    /* and comes down for so long: where swings slow, 0.77 is yet in their middle */
 #define LIFT_WINDOW 0.5      /* of the swing, for offsets of height after the lift ... */
 #define LAND_WINDOW 0.25     /* ... and before the landing, where the heel is near the floor */
 #define PASS_ASIDE 0.08      /* m between ankles as one passes the other (gait facts: people 8.7 to 9.4 cm) */
@@ -261,8 +262,9 @@ static double soft_max(double x, double y, double round)
 static void clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot)
 {
     double arc = 4.0 * state->progress * (1.0 - state->progress), round = 0.01 * arc;
+    double up = state->progress < 0.5 ? arc : 1.0;
     double heel = body->ball_rest + heel_rise(body, foot, state->pitch) +
-                  HEEL_CLEARANCE * arc * ff_smooth((STRIKE - state->progress) / 0.3);
+                  HEEL_CLEARANCE * up * ff_smooth((STRIKE - state->progress) / STRIKES_FROM);
     state->now.height = soft_max(state->now.height, body->ball_rest + LEAST_LIFT * arc * arc, round);
     state->now.height = soft_max(state->now.height, heel, round);
 }

@@ -88,9 +88,10 @@ ff_leg_target ff_gait_leg_target(const ff_gait_foot *state, ff_quat turn)
     double round = ff_max(ff_smooth(-state->pitch / ROLLS), ff_min(ff_min(swing, 1.0 - swing) / FLIES, 1.0));
     /* A foot that rises quickly is off the floor before its toes have come back from where that has bent them. */
     double bent = state->planted ? 0.0 : 1.0 - ff_smooth(swing / TOES_RELAX);
+    double given = swing < 0.5 ? ff_max(state->give, 0.0) : 0.0; /* by which the foot is lower; none at 0.5 */
     return (ff_leg_target){.ball = state->now,
                            .turn = turn,
-                           .clearance = TOE_CLEARANCE * arc,
+                           .clearance = (TOE_CLEARANCE + given) * arc,
                            .most_raise = MOST_RAISE,
                            .grip = 1.0,
                            .swing = swing,
