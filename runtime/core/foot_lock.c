@@ -220,9 +220,11 @@ static ff_vec2 ankle_ground(const ff_body_frame *body, int foot, ff_foothold bal
 }
 
 /* Keep the new footprint on its own side of the standing foot: legs never cross, and toes that point apart bring no heels
- * together. */
-static void keep_sides(const ff_body_frame *body, const ff_gait_foot *other, int foot, ff_foothold *plan)
+ * together. Of two feet in the air the one that lands later looks after that. */
+static void keep_sides(const ff_body_frame *body, const ff_gait_foot *other, int foot, double progress,
+                       ff_foothold *plan)
 {
+    if (!other->planted && other->progress < progress) return;
     ff_vec2 forward = ff_fwd2(plan->yaw);
     double side = foot == 0 ? 1.0 : -1.0;
     ff_vec2 balls = ff_to_frame2(forward, ff_v2(plan->a - other->lock.a, plan->b - other->lock.b));
@@ -365,10 +367,10 @@ bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gai
     ff_foothold landing = clip_foot_later(scene, foot, start, time);
     ff_foothold wanted = stance_mean(scene, foot, landing, start, length, time);
     close_up(scene, foot, time, &wanted);
-    keep_sides(&scene->space->body, other, foot, &wanted);
+    keep_sides(&scene->space->body, other, foot, state->progress, &wanted);
     if (first) state->lock = wanted;
     replan(state, wanted, state->progress, scene->dt);
-    keep_sides(&scene->space->body, other, foot, &state->lock);
+    keep_sides(&scene->space->body, other, foot, state->progress, &state->lock);
     fly(scene, state, foot, landing, standing_slope(clip_foot_speed(scene, foot, start, time, landing)),
         time);
     return false;
