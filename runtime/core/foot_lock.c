@@ -306,12 +306,16 @@ static void pass_beside(const ff_foot_scene *scene, ff_gait_foot *state, const f
     state->now.b += side * push * left.b;
 }
 
+bool ff_foot_sets_off(const ff_gait_foot *state)
+{
+    return state->elapsed < SET_OFF_TIME * state->stood;
+}
+
 /* A swing's beginning is that of a foot in motion. One that was at rest takes it up gradually, or its knee would jerk. */
 static void set_off(ff_gait_foot *state)
 {
-    double time = SET_OFF_TIME * state->stood;
-    if (state->elapsed >= time) return;
-    double rest = 1.0 - ff_smooth(state->elapsed / time);
+    if (!ff_foot_sets_off(state)) return;
+    double rest = 1.0 - ff_smooth(state->elapsed / (SET_OFF_TIME * state->stood));
     state->now.a = ff_lerp(state->now.a, state->left.a, rest);
     state->now.b = ff_lerp(state->now.b, state->left.b, rest);
     state->now.height = ff_lerp(state->now.height, state->left.height, rest);

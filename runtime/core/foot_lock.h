@@ -39,6 +39,9 @@ double ff_foot_closing(ff_rates rates);
  * step, that was. */
 double ff_foot_lift(const ff_foot_scene *scene, ff_gait_foot *state, int foot, double standing);
 
+/* It was at rest and takes up its swing gradually: until then it is between where it stood and the swing's own path. */
+bool ff_foot_sets_off(const ff_gait_foot *state);
+
 /* The foot lands and stays. */
 void ff_foot_land(ff_gait_foot *state, double ball_rest);
 

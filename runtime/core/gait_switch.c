@@ -1,5 +1,7 @@
 #include "runtime/core/gait_switch.h"
 
+#include "runtime/core/foot_lock.h"
+
 #include <string.h>
 
 #define LATER (1.0 / 240.0) /* s, over which speeds are taken */
@@ -162,7 +164,7 @@ static bool about_to_lift(const ff_blend_space *space, const ff_gait *gait, doub
 }
 
 /* Put the clock where the new way has this phase; feet in the air keep their share of the swing. False: the new way would
- * have a foot standing that is in the air, one is about to land or to lift, or would land much later or sooner. */
+ * have a foot standing that is in the air, one is about to land or to lift or sets off, or would land much later or sooner. */
 static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend *next, double phase,
                       double until[2])
 {
@@ -180,6 +182,8 @@ static bool set_clock(const ff_blend_space *space, ff_gait *gait, const ff_blend
         if (foot->planted && left < SHORT_SWING) return false;
         if (foot->planted && about_to_lift(space, gait, start + length)) return false;
         if (foot->planted) continue;
+        if (ff_foot_sets_off(foot)) return false; /* from where it stood, which is the old way's affair */
+        foot->stood = 0.0;
         double time = ff_phase_duration(space, next, phase, phase + left) / gait->pace;
         if (left >= FF_GAIT_KEYS - length || time < LEAST_FLIGHT) return false;
         if (before[f] < LEAST_FLIGHT || time > MOST_DELAY * before[f]) return false;
