@@ -8,6 +8,7 @@
 
 #define CELLS (FF_BLEND_GRID * FF_BLEND_GRID * FF_BLEND_GRID)
 #define INSIDE_TOLERANCE 1e-9 /* algorithms D.2 */
+#define CORNERS 4             /* of a simplex at most */
 
 static int compare_faces(const void *left, const void *right)
 {
@@ -208,11 +209,21 @@ void ff_blend_space_destroy(ff_blend_space *space)
     free(space);
 }
 
+void ff_blend_clear(ff_blend *out)
+{
+    *out = (ff_blend){.way = FF_BLENDING};
+    for (int i = 0; i < FF_BLEND_MAX; ++i)
+        out->vertex[i] = -1;
+}
+
 /* The nearest place on the outside of a region. */
 static void project(const ff_blend_space *space, const ff_blend_region *region, ff_vec3 p, ff_blend *out)
 {
     double best = -1.0;
-    *out = (ff_blend){.vertex = {0, -1, -1, -1}, .weight = {1.0}};
+    for (int i = 0; i < CORNERS; ++i) {
+        out->vertex[i] = i == 0 ? 0 : -1;
+        out->weight[i] = i == 0 ? 1.0 : 0.0;
+    }
     for (uint32_t f = 0; f < region->face_count; ++f) {
         const ff_blend_face *face = &region->faces[f];
         ff_vec3 corner[3];
@@ -222,7 +233,7 @@ static void project(const ff_blend_space *space, const ff_blend_region *region, 
         double distance = ff_blend_face_nearest(corner, face->count, p, weight);
         if (best >= 0.0 && distance >= best) continue;
         best = distance;
-        for (int i = 0; i < FF_BLEND_MAX; ++i) {
+        for (int i = 0; i < CORNERS; ++i) {
             out->vertex[i] = i < face->count ? face->vertex[i] : -1;
             out->weight[i] = i < face->count ? weight[i] : 0.0;
         }
@@ -240,7 +251,7 @@ static bool locate(const ff_blend_region *region, ff_vec3 p, ff_blend *out)
     for (uint32_t i = region->cell_first[cell]; i < region->cell_first[cell + 1]; ++i) {
         const ff_blend_solid *solid = &region->solids[region->cell_solids[i]];
         if (!ff_blend_solid_locate(solid, p, INSIDE_TOLERANCE, out->weight)) continue;
-        for (int k = 0; k < FF_BLEND_MAX; ++k)
+        for (int k = 0; k < CORNERS; ++k)
             out->vertex[k] = solid->vertex[k];
         return true;
     }
@@ -253,7 +264,7 @@ static void weigh_by_period(const ff_blend_space *space, ff_blend *blend)
 {
     ff_vec3 point = ff_v3(0.0, 0.0, 0.0);
     double cadence = 0.0, total = 0.0;
-    for (int i = 0; i < FF_BLEND_MAX; ++i) {
+    for (int i = 0; i < CORNERS; ++i) {
         if (blend->vertex[i] < 0) continue;
         double weight = ff_max(blend->weight[i], 0.0);
         point = ff_madd3(point, space->points[blend->vertex[i]], weight);
@@ -261,7 +272,7 @@ static void weigh_by_period(const ff_blend_space *space, ff_blend *blend)
         cadence += blend->weight[i];
         total += weight;
     }
-    for (int i = 0; i < FF_BLEND_MAX; ++i)
+    for (int i = 0; i < CORNERS; ++i)
         blend->weight[i] = blend->vertex[i] < 0 ? 0.0 : blend->weight[i] / cadence;
     blend->period = total / cadence;
     blend->rates = ff_blend_rates(ff_scale3(point, 1.0 / total));
@@ -271,11 +282,10 @@ void ff_blend_find_in(const ff_blend_space *space, int gait, ff_rates target, ff
 {
     const ff_blend_region *region = &space->region[gait];
     ff_vec3 p = ff_blend_point(target);
+    ff_blend_clear(out);
     if (!locate(region, p, out)) project(space, region, p, out);
     weigh_by_period(space, out);
-    out->stance = out->hips = 0.0;
     out->way = gait == FF_GAIT_RUN ? FF_RUNNING : FF_BLENDING;
-    out->unused = 0;
 }
 
 void ff_blend_find(const ff_blend_space *space, ff_rates target, ff_blend *out)

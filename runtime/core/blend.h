@@ -96,6 +96,13 @@ typedef struct ff_blend {
     uint32_t way, unused; /* FF_BLENDING, ... */
 } ff_blend;
 
+/* A blend of nothing. */
+void ff_blend_clear(ff_blend *out);
+#define FF_BLEND_CHANGE_MOST 2.0 /* from one blend to one of other examples */
+/* Lead a blend towards the wanted one, the weights changing by at most `most` in all. From one simplex to the next weights are
+ * continuous in the rates, but they may change completely within a few cm/s where simplices are thin, and jump where rates
+ * outside of all of them have another nearest place. The blend's own speed and turn stay exact for the weights it has. */
+void ff_blend_follow(const ff_blend_space *space, const ff_blend *wanted, double most, ff_blend *blend);
 /* The blend of walks whose rates are the nearest to target. */
 void ff_blend_find(const ff_blend_space *space, ff_rates target, ff_blend *out);
 /* The same by any motion that is available (ff_locomotion_available). */

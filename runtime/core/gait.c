@@ -8,6 +8,7 @@
 
 #define RATE_SMOOTHING                                                                                       \
     0.10                  /* s: the blend follows the root's rates with this lag, the feet take up the rest */
+#define WEIGHT_SPEED 10.0 /* 1/s, of all weights of the blend together: 0.2 s from one to quite another */
 #define HARDLY_MOVES 0.25 /* m/s, turning counted as in the blend space */
 #define STAND_TIME 0.35   /* s from the walking to the standing pose and back */
 #define SETTLED 0.8       /* of the way to the standing pose, from where on a step may begin */
@@ -258,6 +259,15 @@ static ff_rates blend_rates(ff_rates rates)
     return (ff_rates){rates.forward * share, rates.left * share, rates.turn * share};
 }
 
+/* By how much the weights of the blend may change. Who stands shows nothing of it; who is about to run, or has just come out of a
+ * run, goes through all walks at once, and what is left of the change covers that. */
+static double weight_change(const ff_gait *gait, double dt)
+{
+    bool ran = (double)gait->offset.time[0] > FF_POSE_OFFSET_TIME + 0.01;
+    bool free = gait->stand >= 1.0 || gait->wanted == FF_RUNNING || ran;
+    return free ? FF_BLEND_CHANGE_MOST : WEIGHT_SPEED * dt;
+}
+
 /* The clock of the steps: hurries when the body leaves its feet behind, and takes up its pace gradually. */
 static void advance_phase(const ff_blend_space *space, ff_gait *gait, ff_foot_scene *scene)
 {
@@ -288,7 +298,9 @@ void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_r
     double heading = root->heading;
     ff_rates rates = root->rates;
     follow_rates(gait, rates, dt);
-    ff_locomotion_find(space, (ff_locomotion)gait->blend.way, blend_rates(gait->rates), &gait->blend);
+    ff_blend wanted;
+    ff_locomotion_find(space, (ff_locomotion)gait->blend.way, blend_rates(gait->rates), &wanted);
+    ff_blend_follow(space, &wanted, weight_change(gait, dt), &gait->blend);
     gait->idle_time += dt;
     ff_pose_offset_advance(&gait->offset, dt);
 

@@ -78,13 +78,13 @@ static double height_at(const ff_clip_model *model, ff_rates rates)
 
 static void set_clip(const ff_clip_model *model, ff_rates rates, ff_blend *out)
 {
-    *out = (ff_blend){.vertex = {model->vertex, -1, -1, -1},
-                      .weight = {1.0},
-                      .rates = rates,
-                      .period = ff_gait_model_period(&model->clip, rates),
-                      .stance = ff_gait_model_stance(&model->clip, rates),
-                      .way = FF_SEMI_PROCEDURAL};
-    out->stance = ff_clamp(out->stance, STANCE_LEAST, STANCE_MOST);
+    ff_blend_clear(out);
+    out->vertex[0] = model->vertex;
+    out->weight[0] = 1.0;
+    out->rates = rates;
+    out->period = ff_gait_model_period(&model->clip, rates);
+    out->stance = ff_clamp(ff_gait_model_stance(&model->clip, rates), STANCE_LEAST, STANCE_MOST);
+    out->way = FF_SEMI_PROCEDURAL;
 }
 
 /* How high the hips may be for this foot, if it stands, to be within reach. */

@@ -15,7 +15,8 @@ typedef struct ff_rates {
     double forward, left, turn; /* m/s, m/s, rad/s */
 } ff_rates;
 
-#define FF_BLEND_MAX 4 /* examples blended at once */
+#define FF_BLEND_MAX                                                                                         \
+    8 /* examples blended at once: those of two simplices, as one takes over from the other */
 
 /* What a body moves by. Walking examples, the semi-procedural clip and running examples are never mixed: one passes from
  * one to another within a step (gait_switch.h). */

@@ -91,6 +91,47 @@ static void weights_change_as_smoothly_as_rates_do(void **state)
         worst, 1e-3 * 8.0); /* the nearest neighbours on an axis are 0.5 apart: slope 2, with periods 3 */
 }
 
+static double change_between(const ff_blend *from, const ff_blend *to)
+{
+    double weight[64] = {0}, sum = 0.0;
+    for (int k = 0; k < FF_BLEND_MAX; ++k) {
+        if (from->vertex[k] >= 0) weight[from->vertex[k]] -= from->weight[k];
+        if (to->vertex[k] >= 0) weight[to->vertex[k]] += to->weight[k];
+    }
+    for (int v = 0; v < 64; ++v)
+        sum += fabs(weight[v]);
+    return sum;
+}
+
+/* Whatever is asked for next: no jump, always whole and with its own speed exact, and there in time. */
+static void one_blend_leads_over_to_another_gradually(void **state)
+{
+    const ff_walker_space *walker = *state;
+    ff_random random = {7, 8, 0};
+    ff_blend blend, wanted, before;
+    ff_blend_find(walker->space, random_rates(&random, 1.0), &blend);
+    for (int i = 0; i < 4000; ++i) {
+        double most = ff_random_range(&random, 0.05, 0.4);
+        int steps = ff_random_unit(&random) < 0.1 ? (int)(FF_BLEND_CHANGE_MOST / most) + 3 : 2;
+        ff_blend_find(walker->space, random_rates(&random, 1.3), &wanted);
+        for (int k = 0; k < steps; ++k) {
+            before = blend;
+            ff_blend_follow(walker->space, &wanted, most, &blend);
+            double sum = 0.0;
+            for (int v = 0; v < FF_BLEND_MAX; ++v)
+                sum += blend.weight[v];
+            FF_ASSERT_NEAR(sum, 1.0, 1e-12);
+            /* Of more examples than there is room for, the smallest of the old ones go at once. */
+            if (before.vertex[4] < 0) FF_ASSERT_BELOW(change_between(&before, &blend), most + 1e-9);
+            ff_rates got = rates_of_cycle(walker->space, &blend);
+            FF_ASSERT_NEAR(got.forward, blend.rates.forward, 1e-9);
+            FF_ASSERT_NEAR(got.left, blend.rates.left, 1e-9);
+            FF_ASSERT_NEAR(got.turn, blend.rates.turn, 1e-9);
+        }
+        if (steps > 2) assert_memory_equal(&blend, &wanted, sizeof blend);
+    }
+}
+
 static void a_pack_of_one_line_of_walks_is_projected_onto(void **state)
 {
     (void)state;
@@ -152,6 +193,7 @@ int main(void)
         cmocka_unit_test(targets_inside_are_kept_and_others_go_to_the_nearest_point),
         cmocka_unit_test(who_is_asked_for_too_quick_a_turn_goes_on_all_the_same),
         cmocka_unit_test(weights_change_as_smoothly_as_rates_do),
+        cmocka_unit_test(one_blend_leads_over_to_another_gradually),
         cmocka_unit_test(a_pack_with_every_simplex_twice_can_be_blended),
         cmocka_unit_test(a_pack_of_one_line_of_walks_is_projected_onto),
     };
