@@ -37,6 +37,7 @@ typedef struct ff_body_frame {
     double thigh[2], shank[2];
     double ball_rest; /* m, height of the ball joints when the foot is flat */
 } ff_body_frame;
+void ff_body_frame_read(const ff_pack *pack, ff_body_frame *out);
 
 /* The simplices of one gait. */
 typedef struct ff_blend_region {

@@ -15,10 +15,8 @@ static ff_vec3 vec3_of(const float v[3])
     return ff_v3((double)v[0], (double)v[1], (double)v[2]);
 }
 
-static void read_body(ff_blend_space *space)
+void ff_body_frame_read(const ff_pack *pack, ff_body_frame *body)
 {
-    const ff_pack *pack = space->pack;
-    ff_body_frame *body = &space->body;
     for (int j = 0; j < FF_JOINT_COUNT; ++j)
         body->offset[j] = vec3_of(pack->joints[j].offset);
     for (int foot = 0; foot < 2; ++foot) {
@@ -207,7 +205,7 @@ ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)
     space->points = ff_calloc(pack->example_count, sizeof *space->points);
     if (!space->vertices || !space->points)
         return ff_fail(error, FF_ERR_NO_MEMORY, "out of memory preparing %u examples", pack->example_count);
-    read_body(space);
+    ff_body_frame_read(pack, &space->body);
     read_tree(space);
     uint32_t walking = 0;
     for (uint32_t gait = 0; gait < FF_GAIT_COUNT; ++gait) {

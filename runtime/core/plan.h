@@ -92,10 +92,6 @@ ff_root_frame ff_plan_root_at(const ff_action_set *set, const ff_plan *plan, dou
 void ff_plan_colliders(const ff_action_set *set, const ff_plan *plan, double time,
                        ff_vec3 out[FF_COLLIDER_COUNT]);
 
-/* How long, from its start, an action is still drawn towards the pose that it follows: 1 - ff_smooth(t / this) of the
- * difference is left. At most 0.3 s. */
-double ff_action_blend(const ff_action_set *set, uint32_t action);
-
 /* --------------------------------------------------------------------------------------------------- tracks */
 
 #define FF_TRACK_STEP (1.0 / 15.0) /* s: knot k is at k * FF_TRACK_STEP */

@@ -12,6 +12,9 @@ static const double LANDING = 0.12, TURN = 12.0 * FF_DEG, DURATION = 0.08, OTHER
 static const double ALIKE = 0.25;     /* nobody needs a second one that is so near */
 static const double COVERING = 0.6;   /* share of the room for covering; the rest joins well */
 static const uint32_t RUN_SHARE = 12; /* one in so many may be a run */
+static const double
+    ASIDE = 45.0 * FF_DEG,
+    SHORT = 0.2; /* of a step: further to the side, or shorter (m), and it does not count as going ahead */
 
 typedef struct selection {
     const ff_pack *pack;
@@ -142,18 +145,33 @@ static bool may_take(const selection *s, uint32_t index)
     return r->mode != FF_MODE_RUN || (s->runs + 1) * RUN_SHARE <= s->cap;
 }
 
-/* What differs most, and then what joins most of those taken. */
+/* How well one gets on by a walking step, 0 to 1: steps that join well are often slow ones, whose poses differ little. */
+static double ease_of(const ff_pack_action *r)
+{
+    double way = (double)r->speed * (double)r->duration;
+    bool ahead = fabs((double)r->alpha) < ASIDE && way > SHORT;
+    if (!ahead || (r->mode != FF_MODE_WALK_SHORT && r->mode != FF_MODE_WALK_LONG)) return 0.0;
+    return ff_max(0.0, 1.0 - ((double)ff_action_cost(r, 1.0f) / way - 2.0 * sqrt(FF_E_S * FF_E_W)));
+}
+
+/* What differs most, and then what joins most of those taken and gets on well. */
 static void take_rest(selection *s)
 {
+    const ff_pack_action *r = s->pack->actions;
     uint32_t covering = s->chosen + (uint32_t)(COVERING * (s->cap - s->chosen));
     while (s->chosen < s->cap) {
         uint32_t best = s->count;
+        double most = 0.0;
         for (uint32_t i = 0; i < s->count; ++i) {
             if (!may_take(s, i)) continue;
-            bool better =
-                best == s->count || (s->chosen < covering ? s->joined[i] >= 4 && s->away[i] > s->away[best]
-                                                          : s->joined[i] > s->joined[best]);
-            if (better) best = i;
+            double worth = s->joined[i];
+            if (s->chosen < covering)
+                worth = s->joined[i] >= 4 ? s->away[i] : 0.0;
+            else
+                worth *= ease_of(&r[i]);
+            if (best < s->count && worth <= most) continue;
+            best = i;
+            most = worth;
         }
         if (best == s->count) return;
         take(s, best);

@@ -1,6 +1,7 @@
 #include "runtime/core/plan_set.h"
 
 #include "runtime/core/plan_hit.h"
+#include "runtime/core/plan_joint.h"
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
@@ -8,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float BLEND = 0.3f;  /* s, algorithms B.9 */
 static const float FASTER = 0.9f; /* m/s, from one walking step to the next (algorithms A.13) */
 
 const float ff_collider_radius[FF_COLLIDER_COUNT] = {0.12f, 0.08f, 0.08f, 0.11f, 0.11f, 0.18f};
@@ -59,7 +59,7 @@ static float duration_at(const ff_pack_action *r, float pace)
     return pace == 1.0f ? r->duration : r->duration / pace;
 }
 
-static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
+static void take_action(ff_action_set *set, const ff_body_frame *body, uint32_t index, uint32_t pack_index)
 {
     const ff_pack_action *r = &set->pack->actions[pack_index];
     ff_set_action *a = &set->actions[index];
@@ -71,7 +71,6 @@ static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
                          .theta = r->theta,
                          .cosine = (float)turn.a,
                          .sine = (float)turn.b,
-                         .blend = fminf(BLEND, r->duration - (float)FF_TRACK_STEP),
                          .support = (uint8_t)r->support,
                          .kind = (uint8_t)ff_action_class_of(r),
                          .pace = 1.0f,
@@ -82,6 +81,7 @@ static void take_action(ff_action_set *set, uint32_t index, uint32_t pack_index)
     if (r->flags & FF_ACTION_FROM_STANDING) a->flags |= FF_SET_FROM_STANDING;
     if (ff_action_is_platform(r)) a->flags |= FF_SET_REACTIVE;
     take_samples(set, a, r);
+    ff_set_ends_find(set->pack, body, pack_index, set->samples + a->first_knot, a->knots, &set->ends[index]);
 }
 
 /* Walking steps may be done faster and slower; what begins or ends in standing is as it was captured, and runs are (A.13). */
@@ -103,7 +103,7 @@ static void take_variant(ff_action_set *set, uint32_t index, float pace)
     a->pace = pace;
     a->duration = duration_at(r, pace);
     a->cost = ff_action_cost(r, pace);
-    a->blend = fminf(BLEND, a->duration - (float)FF_TRACK_STEP);
+    ff_set_ends_pace(&set->ends[index], pace, a->duration, &set->ends[set->count]);
     a->variant_count = 0;
     ++set->count;
 }
@@ -158,18 +158,21 @@ static void take_next(ff_action_set *set, uint32_t index, const uint16_t *place)
     if (a->next_count > set->next_most) set->next_most = a->next_count;
 }
 
-/* The furthest that the joint of a and b, whose S0 lies at anchor and is turned by a's theta, moves any collider. */
-static float jump_of(const ff_action_set *set, const ff_set_action *a, const ff_set_action *b,
-                     const float anchor[2])
+/* What joins b to a, whose S0 lies at anchor and is turned by a's theta. */
+static void find_joint(const ff_action_set *set, const ff_set_action *a, const ff_set_action *b,
+                       const float anchor[2], ff_joint *out)
 {
     const ff_knot *end = &set->samples[a->first_knot + a->knots - 1], *begin = &set->samples[b->first_knot];
-    float most = 0.0f;
-    for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
-        float da = end->a[i] - anchor[0] - a->cosine * begin->a[i] + a->sine * begin->b[i];
-        float db = end->b[i] - anchor[1] - a->sine * begin->a[i] - a->cosine * begin->b[i];
-        most = fmaxf(most, sqrtf(da * da + db * db));
+    const ff_set_ends *before = a->flags & FF_SET_TO_STANDING ? NULL : &set->ends[a - set->actions];
+    const float turn[2] = {a->cosine, a->sine};
+    ff_knot jump;
+    for (int i = 0; i < FF_TRACK_LANES; ++i) {
+        float x = end->a[i] - anchor[0], y = end->b[i] - anchor[1];
+        jump.a[i] = a->cosine * x + a->sine * y - begin->a[i];
+        jump.b[i] = a->cosine * y - a->sine * x - begin->b[i];
+        jump.y[i] = end->y[i] - begin->y[i];
     }
-    return most;
+    ff_joint_make(before, turn, &set->ends[b - set->actions], &jump, out);
 }
 
 /* With its speed varied, what share of its cost at its own speed does a successor (with its joint) cost at least? Then no
@@ -196,7 +199,9 @@ static void measure_next(ff_action_set *set)
             ff_set_next *next = &set->next[a->first_next + k];
             const ff_set_action *b = &set->actions[next->action];
             const float anchor[2] = {next->other ? 0.0f : a->land[0], next->other ? 0.0f : a->land[1]};
-            next->jump = jump_of(set, a, b, anchor);
+            ff_joint *joint = &set->joints[a->first_next + k];
+            find_joint(set, a, b, anchor, joint);
+            next->jump = ff_joint_most(joint);
             float ra = a->root_end[0] - anchor[0], rb = a->root_end[1] - anchor[1];
             float ea = a->cosine * b->root_end[0] - a->sine * b->root_end[1] - ra;
             float eb = a->sine * b->root_end[0] + a->cosine * b->root_end[1] - rb;
@@ -290,17 +295,22 @@ static ff_status take_memory(ff_action_set *set, const recipe *from, ff_error *e
         return ff_fail(error, FF_ERR_RANGE, "%zu actions at all speeds; at most %u fit", count,
                        UINT16_MAX - 1u);
     set->actions = ff_calloc(count, sizeof *set->actions);
+    set->ends = ff_calloc(count, sizeof *set->ends);
     set->next = ff_calloc(next, sizeof *set->next);
+    set->joints = ff_calloc(next, sizeof *set->joints);
     set->stops = ff_calloc(count * FF_SET_STOPS_MAX, sizeof *set->stops);
     set->samples = ff_calloc(knots, sizeof *set->samples);
     set->roots = ff_calloc(knots, sizeof *set->roots);
-    if (set->actions && set->next && set->stops && set->samples && set->roots) return FF_OK;
+    if (set->actions && set->ends && set->next && set->joints && set->stops && set->samples && set->roots)
+        return FF_OK;
     return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %zu actions", count);
 }
 
 static ff_status fill(ff_action_set *set, const recipe *from, ff_error *error)
 {
     uint32_t total = set->pack->action_count;
+    ff_body_frame body;
+    ff_body_frame_read(set->pack, &body);
     uint16_t *place = ff_calloc(total, sizeof *place);
     if (!place) return ff_fail(error, FF_ERR_NO_MEMORY, "a set of %u actions", total);
     set->count = 0;
@@ -308,7 +318,7 @@ static ff_status fill(ff_action_set *set, const recipe *from, ff_error *error)
         place[i] = from->chosen[i] ? (uint16_t)set->count : UINT16_MAX;
         if (!from->chosen[i]) continue;
         if (i == from->stand) set->stand = set->count;
-        take_action(set, set->count++, i);
+        take_action(set, &body, set->count++, i);
     }
     for (uint32_t i = 0, own = set->count; i < own; ++i)
         for (uint32_t n = 0; n < from->speed_count; ++n)
@@ -372,7 +382,9 @@ void ff_action_set_destroy(ff_action_set *set)
 {
     if (!set) return;
     free(set->actions);
+    free(set->ends);
     free(set->next);
+    free(set->joints);
     free(set->stops);
     free(set->samples);
     free(set->roots);
@@ -409,9 +421,4 @@ uint32_t ff_action_set_stand(const ff_action_set *set)
 const ff_pack *ff_action_set_pack(const ff_action_set *set)
 {
     return set->pack;
-}
-
-double ff_action_blend(const ff_action_set *set, uint32_t action)
-{
-    return (double)set->actions[action].blend;
 }

@@ -32,7 +32,6 @@ typedef struct ff_set_action {
     float land[2];        /* m, in S0 */
     float root_end[2];    /* m */
     float theta, cosine, sine;
-    float blend;                /* s */
     float circle[3];            /* a, b, radius: in S0, holds all colliders at all times */
     float next_longest;         /* s, of any successor */
     float next_reach;           /* m: from the root at the end, how far any collider of any successor gets */
@@ -47,12 +46,34 @@ typedef struct ff_set_action {
     uint32_t reach;                        /* table of the pack */
 } ff_set_action;
 
+/* How an action begins and ends, for what joins it to others (plan_joint.h). */
+typedef struct ff_set_ends {
+    float begin[2][FF_TRACK_LANES], end[2][FF_TRACK_LANES]; /* m/s: a and b of the colliders, in S0 */
+    float lift[2];           /* s from the start, per foot: until when it stands, if it begins so */
+    float land[2];           /* s: when it comes down */
+    float last;              /* s: by then what joins it to the action before is over */
+    bool begins[2], ends[2]; /* it stands as the action begins, and as it ends */
+} ff_set_ends;
+
+/* What joins an action to one before, in its own S0. */
+typedef struct ff_joint {
+    ff_knot jump; /* m: where the action before ends, off where this one begins */
+    /* m: by how much faster they move then, times the span in which they lose it */
+    float rush_a[FF_TRACK_LANES], rush_b[FF_TRACK_LANES];
+    float from[FF_TRACK_LANES]; /* s from the start, until when all of the jump is left */
+    float rate[FF_TRACK_LANES]; /* 1/s: of the span in which it then fades */
+    float over;                 /* s from the start, when nothing is left */
+    /* How far colliders are moved about the root: m, of jumps of head and hands, feet, root, and by speeds; s and 1/s, between
+     * when feet get to their places at the latest. */
+    float most_body, most_feet, most_root, most_rush, last_from, last_rate;
+} ff_joint;
+
 /* What may follow, cheapest first. */
 typedef struct ff_set_next {
     uint16_t action;
     uint16_t other; /* 1: stands on the foot that the action before stood on */
     float cost;     /* J/kg of action and joint */
-    float jump;     /* m, the furthest that the joint moves any collider */
+    float jump;     /* m, the most that the joint moves any collider */
 } ff_set_next;
 
 /* The shortest ways to a stand from the end of an action: one or two actions. */
@@ -73,7 +94,9 @@ struct ff_action_set {
     const ff_pack_reach *reach; /* NULL when some action has no table */
     uint32_t count, stand;
     ff_set_action *actions;
+    ff_set_ends *ends; /* [count] */
     ff_set_next *next;
+    ff_joint *joints; /* [next_total] */
     ff_set_stop *stops;
     ff_knot *samples;
     ff_set_root *roots; /* [knot_total] of the samples */
@@ -115,14 +138,6 @@ static inline ff_set_root ff_set_root_at(const ff_action_set *set, const ff_set_
     return (ff_set_root){p->a + f * (q->a - p->a), p->b + f * (q->b - p->b),
                          (p->about > q->about ? p->about : q->about) +
                              1e-4f}; /* which roundings do not come to */
-}
-
-/* Share of the jump at a joint that is left t seconds into the action. */
-static inline float ff_set_blend(const ff_set_action *action, float t)
-{
-    if (!(t < action->blend)) return 0.0f;
-    float x = t / action->blend;
-    return 1.0f - x * x * (3.0f - 2.0f * x);
 }
 
 /* Of the pack's records (plan_action.c), for whoever prepares plans: can it be walked on level ground; is it a jump or a duck; its class; what

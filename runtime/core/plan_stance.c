@@ -1,6 +1,8 @@
 /* Is the next action, or standing, free of what is seen? See plan_sight.h. */
 #include "runtime/core/plan_sight.h"
 
+#include "runtime/core/plan_joint.h"
+
 #include <string.h>
 
 #ifdef __SSE2__
@@ -108,18 +110,24 @@ static bool mover_near(const ff_sight_mover *m, int32_t from, int32_t to, float 
 
 /* ------------------------------------------------------------------------------------------------------- stance */
 
-/* An action's colliders at t seconds in its place. */
+/* Colliders in S0, in their place. */
+static void put(const ff_knot *local, const float anchor[2], float c, float s, ff_knot *restrict out)
+{
+    float a = anchor[0], b = anchor[1];
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
+        out->a[i] = a + c * local->a[i] - s * local->b[i];
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
+        out->b[i] = b + s * local->a[i] + c * local->b[i];
+    memcpy(out->y, local->y, sizeof out->y);
+}
+
+/* An action's colliders at t seconds in its place, without what joins it to the one before. */
 static void place(const ff_action_set *set, const ff_set_action *action, const float anchor[2], float c,
                   float s, float t, ff_knot *restrict out)
 {
     ff_knot local;
-    float a = anchor[0], b = anchor[1];
     ff_set_sample(set, action, t, &local);
-    for (int i = 0; i < FF_TRACK_LANES; ++i)
-        out->a[i] = a + c * local.a[i] - s * local.b[i];
-    for (int i = 0; i < FF_TRACK_LANES; ++i)
-        out->b[i] = b + s * local.a[i] + c * local.b[i];
-    memcpy(out->y, local.y, sizeof out->y);
+    put(&local, anchor, c, s, out);
 }
 
 static float furthest(const ff_knot *p, const ff_knot *q)
@@ -164,27 +172,14 @@ typedef struct course {
     const float *anchor;
     float a, b, radius; /* m: circle that holds all of it */
     int32_t last;       /* knot, not after its end */
-    float jump;         /* m, the furthest that the joint moves any collider */
     uint32_t total;     /* knots */
-    bool begun;         /* roots and jumps are there */
+    bool begun;         /* roots are there */
     uint64_t made;      /* bit k: knots[k] is there */
-    ff_knot jumps;      /* what the joint moves the colliders by at first */
+    const ff_joint *joint;
     float root_a[FF_SIGHT_KNOTS + 4], root_b[FF_SIGHT_KNOTS + 4]; /* [0] is the stance's tail */
     float about[FF_SIGHT_KNOTS + 4]; /* radii about it, that hold all colliders */
     ff_knot knots[FF_SIGHT_KNOTS];
 } course;
-
-/* What the joint moves the colliders by at first. */
-static void find_jump(const ff_sight *sight, const course *c, ff_knot *jump)
-{
-    const ff_stance *st = c->stance;
-    const ff_knot *begin = &sight->set->samples[c->action->first_knot];
-    for (int i = 0; i < FF_TRACK_LANES; ++i) {
-        jump->a[i] = st->end.a[i] - c->anchor[0] - st->cosine * begin->a[i] + st->sine * begin->b[i];
-        jump->b[i] = st->end.b[i] - c->anchor[1] - st->sine * begin->a[i] - st->cosine * begin->b[i];
-        jump->y[i] = st->end.y[i] - begin->y[i];
-    }
-}
 
 /* s into the action at a knot of its course. */
 static float time_at(const course *c, uint32_t knot)
@@ -196,7 +191,6 @@ static float time_at(const course *c, uint32_t knot)
 static void begin_course(const ff_sight *sight, course *c)
 {
     const ff_stance *st = c->stance;
-    find_jump(sight, c, &c->jumps);
     c->begun = true;
     c->made = 1;
     c->knots[0] = st->tail;
@@ -204,16 +198,17 @@ static void begin_course(const ff_sight *sight, course *c)
     c->root_b[0] = st->tail.b[FF_COLLIDER_ROOT];
     c->about[0] = ff_knot_radius(&st->tail);
     for (uint32_t k = 1; k < c->total; ++k) {
-        float t = time_at(c, k), left = ff_set_blend(c->action, t);
+        float t = time_at(c, k), move[2];
         ff_set_root root = ff_set_root_at(sight->set, c->action, t);
+        if (t < c->joint->over) {
+            ff_joint_move(c->joint, FF_COLLIDER_ROOT, t, move);
+            root.a += move[0];
+            root.b += move[1];
+            root.about += ff_joint_about(c->joint, t);
+        }
         c->root_a[k] = c->anchor[0] + st->cosine * root.a - st->sine * root.b;
         c->root_b[k] = c->anchor[1] + st->sine * root.a + st->cosine * root.b;
-        if (left > 0.0f) {
-            c->root_a[k] += left * c->jumps.a[FF_COLLIDER_ROOT];
-            c->root_b[k] += left * c->jumps.b[FF_COLLIDER_ROOT];
-        }
-        /* Of the samples on both sides; the joint may move the root one way and a hand the other. */
-        c->about[k] = root.about + 2.0f * left * c->jump;
+        c->about[k] = root.about;
     }
     for (uint32_t k = c->total; k < c->total + 4; ++k) {
         c->root_a[k] = c->root_a[k - 1];
@@ -228,14 +223,14 @@ static const ff_knot *course_knot(const ff_sight *sight, course *c, uint32_t k)
     ff_knot *to = &c->knots[k];
     if (c->made >> k & 1u) return to;
     c->made |= (uint64_t)1 << k;
-    float t = time_at(c, k), left = ff_set_blend(c->action, t);
-    place(sight->set, c->action, c->anchor, c->stance->cosine, c->stance->sine, t, to);
-    if (left > 0.0f)
-        for (int i = 0; i < FF_TRACK_LANES; ++i) {
-            to->a[i] += left * c->jumps.a[i];
-            to->b[i] += left * c->jumps.b[i];
-            to->y[i] += left * c->jumps.y[i];
-        }
+    float t = time_at(c, k);
+    ff_knot local, joined;
+    ff_set_sample(sight->set, c->action, t, &local);
+    if (t < c->joint->over) {
+        ff_joint_add(c->joint, t, &local, &joined);
+        local = joined;
+    }
+    put(&local, c->anchor, c->stance->cosine, c->stance->sine, to);
     return to;
 }
 
@@ -400,7 +395,7 @@ bool ff_stance_free(ff_sight *sight, ff_stance *st, const ff_set_next *next, flo
     c.stance = st;
     c.action = b;
     c.anchor = next->other ? st->other : st->at;
-    c.jump = next->jump;
+    c.joint = &sight->set->joints[next - sight->set->next];
     c.last = (int32_t)((st->time + b->duration) / (float)FF_TRACK_STEP);
     c.total = knots_to(st, c.last);
     c.begun = false;

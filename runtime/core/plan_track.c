@@ -1,5 +1,6 @@
 /* Where a plan's owner is, and whether two meet: plans, colliders and tracks of plan.h. */
 #include "runtime/core/plan_hit.h"
+#include "runtime/core/plan_joint.h"
 #include "runtime/core/plan_set.h"
 
 #include <string.h>
@@ -84,15 +85,29 @@ static void colliders_at(const ff_action_set *set, const ff_plan *plan, uint32_t
     const ff_plan_step *step = &plan->steps[index];
     double t = ff_max(time - step->start, 0.0);
     place(set, step, t, out);
-    double left = step->hold ? 0.0 : (double)ff_set_blend(&set->actions[step->action], (float)t);
-    if (left <= 0.0) return;
+    if (step->hold) return;
+    const ff_plan_step *last = index > 0 ? &plan->steps[index - 1] : &plan->from;
+    bool stood = last->hold || set->actions[last->action].flags & FF_SET_TO_STANDING;
+    ff_vec2 axis = ff_fwd2(step->heading), turned = ff_fwd2(step->heading - last->heading);
+    const float turn[2] = {(float)turned.a, (float)turned.b};
     placed before, begin;
-    place(set, index > 0 ? &plan->steps[index - 1] : &plan->from, INFINITY, &before);
+    ff_knot jump, moved, none = {.a = {0.0f}};
+    ff_joint joint;
+    place(set, last, INFINITY, &before);
     place(set, step, 0.0, &begin);
     for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
-        out->a[i] += left * (before.a[i] - begin.a[i]);
-        out->b[i] += left * (before.b[i] - begin.b[i]);
-        out->y[i] += left * (before.y[i] - begin.y[i]);
+        ff_vec2 off = ff_to_frame2(axis, ff_v2(before.a[i] - begin.a[i], before.b[i] - begin.b[i]));
+        jump.a[i] = (float)off.a;
+        jump.b[i] = (float)off.b;
+        jump.y[i] = (float)(before.y[i] - begin.y[i]);
+    }
+    ff_joint_make(stood ? NULL : &set->ends[last->action], turn, &set->ends[step->action], &jump, &joint);
+    ff_joint_add(&joint, (float)t, &none, &moved);
+    for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
+        ff_vec2 move = ff_from_frame2(axis, ff_v2((double)moved.a[i], (double)moved.b[i]));
+        out->a[i] += move.a;
+        out->b[i] += move.b;
+        out->y[i] += (double)moved.y[i];
     }
 }
 

@@ -5,7 +5,6 @@
 
 #include <string.h>
 
-#define SETTLE 0.25           /* s, in which a foot that has left its place takes to the clip's own way */
 #define GRIP 0.12             /* s, in which a foot lets go of the ground and takes hold of it */
 #define RAISE (25.0 * FF_DEG) /* a heel may be raised so far before the hips come down for it */
 #define MOST_RAISE (35.0 * FF_DEG) /* and so far at all */
@@ -124,7 +123,7 @@ static void place_foot(const ff_play_step *step, const ff_play_action *action, i
     } else {
         bool left = next > 0 && (next > 1 || action->stance[foot][0].from > 0.0 || step->foot[foot].planted);
         if (left) from = end_of_stance(step, action, foot, next - 1, 1);
-        to.time = from.time + SETTLE;
+        to.time = from.time + FF_PLAY_SETTLE;
         if (next < count) to = end_of_stance(step, action, foot, next, 0);
         from.lead = lead_between(&from, &to, local);
         out->ball[foot] = ff_add3(out->ball[foot], ff_ground(from.lead.place, 0.0));

@@ -16,12 +16,17 @@ double ff_play_foot_yaw(ff_quat rotation)
     return ff_quat_heading(rotation);
 }
 
+/* Whose actions they are. */
+typedef struct source {
+    const ff_pack *pack;
+    const ff_body_frame *body;
+} source;
+
 /* Seen from a place and heading of the stream's world. */
-static void sample_from(const ff_play_set *set, const ff_play_action *action, double time,
-                        ff_play_sample *out)
+static void sample_from(const source *of, const ff_play_action *action, double time, ff_play_sample *out)
 {
     ff_root_frame root;
-    ff_pack_sample(set->pack, action->stream, action->start + time,
+    ff_pack_sample(of->pack, action->stream, action->start + time,
                    action->mirrored ? (uint32_t)FF_SAMPLE_MIRRORED : 0u, &root, &out->hips, out->rotations,
                    NULL);
     out->root = ff_to_frame2(ff_fwd2(action->heading), ff_sub2(root.position, action->origin));
@@ -29,12 +34,13 @@ static void sample_from(const ff_play_set *set, const ff_play_action *action, do
     ff_root_frame here = {out->root, out->heading};
     ff_root_place(&here, &out->hips, &out->rotations[FF_JOINT_HIPS]);
     out->hips.y -= action->level;
-    ff_legs_of_pose(&set->space->body, out->hips, out->rotations, out->ball, out->foot);
+    ff_legs_of_pose(of->body, out->hips, out->rotations, out->ball, out->foot);
 }
 
 void ff_play_sample_at(const ff_play_set *set, uint32_t action, double time, ff_play_sample *out)
 {
-    sample_from(set, &set->actions[action], time, out);
+    const source of = {set->pack, &set->space->body};
+    sample_from(&of, &set->actions[action], time, out);
 }
 
 ff_root_frame ff_play_root_at(const ff_play_set *set, uint32_t index, double time)
@@ -55,10 +61,10 @@ typedef struct still_foot {
     double yaw;
 } still_foot;
 
-static still_foot look_at(const ff_play_set *set, const ff_play_action *action, int foot, double time)
+static still_foot look_at(const source *of, const ff_play_action *action, int foot, double time)
 {
     ff_play_sample at;
-    sample_from(set, action, time, &at);
+    sample_from(of, action, time, &at);
     return (still_foot){at.ball[foot], ff_play_foot_yaw(at.foot[foot])};
 }
 
@@ -69,24 +75,23 @@ static bool is_still(still_foot now, still_foot there)
 }
 
 /* From a moment at which the foot is flat, how far the stance reaches in direction step, not beyond limit. */
-static double reach_of_stance(const ff_play_set *set, const ff_play_action *action, int foot, double time,
+static double reach_of_stance(const source *of, const ff_play_action *action, int foot, double time,
                               still_foot there, double limit)
 {
     double step = limit < time ? -LOOK : LOOK;
     while ((limit - time) * step > 0.0) {
         double next = fabs(limit - time) < LOOK ? limit : time + step;
-        if (!is_still(look_at(set, action, foot, next), there)) break;
+        if (!is_still(look_at(of, action, foot, next), there)) break;
         time = next;
     }
     return time;
 }
 
-static void add_end(const ff_play_set *set, const ff_play_action *action, int foot, int end,
-                    ff_play_stance *stance)
+static void add_end(const source *of, const ff_play_action *action, int foot, int end, ff_play_stance *stance)
 {
     double time = end == 0 ? stance->from : stance->to;
-    ff_vec2 now = ff_plane(look_at(set, action, foot, time).ball);
-    ff_vec2 later = ff_plane(look_at(set, action, foot, time + LOOK).ball);
+    ff_vec2 now = ff_plane(look_at(of, action, foot, time).ball);
+    ff_vec2 later = ff_plane(look_at(of, action, foot, time + LOOK).ball);
     stance->off[end] = ff_sub2(now, ff_v2(stance->a, stance->b));
     stance->speed[end] = ff_scale2(ff_sub2(later, now), 1.0 / LOOK);
 }
@@ -101,31 +106,31 @@ static double surely_still(const ff_play_action *action, const double plant[2], 
     return ff_clamp(0.5 * (ff_max(flat[0], low) + ff_min(flat[1], high)), low, high);
 }
 
-static void add_stance(const ff_play_set *set, ff_play_action *action, int foot, const double plant[2],
+static void add_stance(const source *of, ff_play_action *action, int foot, const double plant[2],
                        const double flat[2])
 {
     double low = ff_clamp(plant[0], 0.0, action->duration), high = ff_min(plant[1], action->duration);
     uint32_t count = action->stance_count[foot];
     if (count == FF_PLAY_STANCES || high < low) return;
     double surely = surely_still(action, plant, flat);
-    still_foot there = look_at(set, action, foot, surely);
-    double from = reach_of_stance(set, action, foot, surely, there, low);
-    double to = reach_of_stance(set, action, foot, surely, there, high);
+    still_foot there = look_at(of, action, foot, surely);
+    double from = reach_of_stance(of, action, foot, surely, there, low);
+    double to = reach_of_stance(of, action, foot, surely, there, high);
     if (to > action->duration - LOOK) to = action->duration; /* the plant's own times are rounded */
     if (to - from < SHORTEST && to < action->duration) return;
     ff_play_stance *stance = &action->stance[foot][count];
     *stance =
         (ff_play_stance){.from = from, .to = to, .a = there.ball.z, .b = there.ball.x, .yaw = there.yaw};
-    add_end(set, action, foot, 0, stance);
-    add_end(set, action, foot, 1, stance);
+    add_end(of, action, foot, 0, stance);
+    add_end(of, action, foot, 1, stance);
     action->stance_count[foot] = count + 1;
 }
 
-static void find_stances(const ff_play_set *set, const ff_pack_action *record, ff_play_action *action)
+static void find_stances(const source *of, const ff_pack_action *record, ff_play_action *action)
 {
-    const ff_pack_clip *clip = &set->pack->clips[record->clip];
+    const ff_pack_clip *clip = &of->pack->clips[record->clip];
     for (uint32_t p = clip->first_plant; p < clip->first_plant + clip->plant_count; ++p) {
-        const ff_pack_plant *plant = &set->pack->plants[p];
+        const ff_pack_plant *plant = &of->pack->plants[p];
         double t_0 = (double)record->t_0;
         double whole[2] = {(double)plant->start - t_0, (double)plant->end - t_0},
                flat[2] = {whole[0], whole[1]};
@@ -133,13 +138,16 @@ static void find_stances(const ff_play_set *set, const ff_pack_action *record, f
             flat[0] = (double)plant->flat_start - t_0, flat[1] = (double)plant->flat_end - t_0;
         if (whole[1] < 0.0 || whole[0] > action->duration + LOOK) continue;
         int foot = action->mirrored ? 1 - (int)plant->foot : (int)plant->foot;
-        add_stance(set, action, foot, whole, flat);
+        add_stance(of, action, foot, whole, flat);
     }
 }
 
-static void prepare(const ff_play_set *set, const ff_pack_action *record, ff_play_action *action)
+void ff_play_action_make(const ff_pack *pack, const ff_body_frame *body, uint32_t index,
+                         ff_play_action *action)
 {
-    const ff_pack_clip *clip = &set->pack->clips[record->clip];
+    const ff_pack_action *record = &pack->actions[index];
+    const ff_pack_clip *clip = &pack->clips[record->clip];
+    const source of = {pack, body};
     *action = (ff_play_action){.start = (double)record->t_0 - (double)clip->time_offset,
                                .duration = (double)record->duration,
                                .level = (double)record->height,
@@ -148,10 +156,10 @@ static void prepare(const ff_play_set *set, const ff_pack_action *record, ff_pla
                                .support = record->support,
                                .idle = record->mode == FF_MODE_IDLE};
     ff_play_sample at;
-    sample_from(set, action, 0.0, &at);
+    sample_from(&of, action, 0.0, &at);
     action->origin = ff_plane(at.ball[record->support]);
     action->heading = at.heading;
-    find_stances(set, record, action);
+    find_stances(&of, record, action);
 }
 
 ff_status ff_play_set_create(const ff_pack *pack, const ff_blend_space *space, ff_play_set **out,
@@ -167,7 +175,7 @@ ff_status ff_play_set_create(const ff_pack *pack, const ff_blend_space *space, f
     set->pack = pack;
     set->space = space;
     for (uint32_t i = 0; i < pack->action_count; ++i)
-        prepare(set, &pack->actions[i], &set->actions[i]);
+        ff_play_action_make(pack, &space->body, i, &set->actions[i]);
     *out = set;
     return FF_OK;
 }

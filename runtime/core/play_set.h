@@ -5,6 +5,8 @@
 
 #include "runtime/core/blend.h"
 
+#define FF_PLAY_SETTLE                                                                                       \
+    0.25 /* s, in which a foot that has left its place, and comes to no other, takes to the clip's way */
 enum { FF_PLAY_STANCES = 6 }; /* of one foot in one action: a jump or a turn has a few */
 
 /* The ball of a foot stands still, seen from frame S0 of the action (pack_format.h). */
@@ -27,6 +29,9 @@ typedef struct ff_play_action {
     uint32_t stance_count[2];
     ff_play_stance stance[2][FF_PLAY_STANCES]; /* in order of time */
 } ff_play_action;
+
+/* One action of a pack, whose body is given. */
+void ff_play_action_make(const ff_pack *pack, const ff_body_frame *body, uint32_t index, ff_play_action *out);
 
 typedef struct ff_play_set {
     const ff_pack *pack;

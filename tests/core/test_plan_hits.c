@@ -274,7 +274,9 @@ static void bodies_of_capsules_are_where_their_colliders_are(void **state)
         ff_vec3 at[FF_COLLIDER_COUNT];
         FF_ASSERT_OK(ff_plan_body_at(w->set, &plan, t, body, &error), error);
         ff_plan_colliders(w->set, &plan, t, at);
-        for (int c = 0; c < FF_COLLIDER_ROOT; ++c) {
+        /* A foot is led from where it stood all the way to where it lands. */
+        bool led = !plan.steps[step].hold && t < ff_plan_step_end(&plan, step) - FF_TRACK_STEP;
+        for (int c = 0; c < (led ? FF_COLLIDER_FOOT_L : FF_COLLIDER_ROOT); ++c) {
             ff_vec3 there = ff_ground(ff_v2(at[c].x, at[c].y), at[c].z);
             double nearest = INFINITY;
             for (int i = 0; i < FF_BODY_CAPSULES; ++i)
