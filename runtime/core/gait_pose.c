@@ -7,7 +7,7 @@
 #define BREATH (0.7 * FF_DEG)
 #define LOOK (5.0 * FF_DEG)
 #define MOST_RAISE (60.0 * FF_DEG) /* of a heel, for a planted foot to be in reach */
-#define TOE_CLEARANCE 0.015 /* m, over the rest height of the toe tip (gait facts: people 1.4 to 2.3 cm) */
+#define TOE_CLEARANCE 0.016 /* m, over the rest height of the toe tip (gait facts: people 1.4 to 2.3 cm) */
 
 /* Local rotations of everything but the hips: of the motion, with what is left of the one before, and while standing of the
  * idle pose. */
