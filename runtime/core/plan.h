@@ -241,7 +241,7 @@ typedef struct ff_plan_options {
     double seconds;      /* wall clock on top; 0 (default): none, and results depend on the arguments alone */
     uint32_t horizon;    /* actions ahead, default 16, at most 20; 1 = purely reactive */
     double time_horizon; /* s: who gets so far has done enough; default 5.5, 0 = none */
-    double inflation;    /* of the heuristic in the first round; default 2.5 */
+    double inflation;    /* of the heuristic in the first round; default 3 */
     double inflation_step; /* less of it in each further round, down to 1; 0 = one round only. Default 0.5 */
     double margin;         /* m, to keep from others on top of radii; default 0.05 */
     double stand_margin;   /* m, more of it where the plan stands in the end; default 0.03 */

@@ -109,7 +109,7 @@ static float longest(const float *a, const float *b, int first, int last)
 void ff_joint_make(const ff_set_ends *before, const float turn[2], const ff_set_ends *next,
                    const ff_knot *jump, ff_joint *out)
 {
-    enum { HAND = FF_COLLIDER_HAND_R, LEFT = FF_COLLIDER_FOOT_L, RIGHT = FF_COLLIDER_FOOT_R };
+    enum { LEFT = FF_COLLIDER_FOOT_L, RIGHT = FF_COLLIDER_FOOT_R };
     *out = (ff_joint){.jump = *jump};
     for (int i = 0; i < FF_TRACK_LANES; ++i)
         if (i < LEFT || i > RIGHT)
@@ -125,15 +125,30 @@ void ff_joint_make(const ff_set_ends *before, const float turn[2], const ff_set_
     }
     out->last_from = fmaxf(out->from[LEFT], out->from[RIGHT]);
     out->last_rate = 1.0f / (out->over - out->last_from);
-    out->most_body = longest(jump->a, jump->b, 0, HAND);
-    out->most_feet = longest(jump->a, jump->b, LEFT, RIGHT);
-    out->most_root = longest(jump->a, jump->b, FF_COLLIDER_ROOT, FF_COLLIDER_ROOT);
-    out->most_rush = longest(out->rush_a, out->rush_b, 0, RIGHT) +
-                     longest(out->rush_a, out->rush_b, FF_COLLIDER_ROOT, FF_COLLIDER_ROOT);
+    ff_joint_measure(out);
+}
+
+void ff_joint_measure(ff_joint *joint)
+{
+    enum { HAND = FF_COLLIDER_HAND_R, LEFT, RIGHT, ROOT };
+    const float *a = joint->jump.a, *b = joint->jump.b, *u = joint->rush_a, *v = joint->rush_b;
+    joint->most_body = longest(a, b, 0, HAND);
+    joint->most_feet = longest(a, b, LEFT, RIGHT);
+    joint->most_root = longest(a, b, ROOT, ROOT);
+    joint->most_rush = longest(u, v, 0, RIGHT) + longest(u, v, ROOT, ROOT);
+    joint->most_arc = longest(joint->arc_a, joint->arc_b, 0, HAND);
+}
+
+const ff_joint *ff_set_joint(const ff_action_set *set, uint32_t before, uint32_t next)
+{
+    const ff_set_action *a = &set->actions[before];
+    for (uint32_t k = a->first_next; k < a->first_next + a->next_count; ++k)
+        if (set->next[k].action == next) return &set->joints[k];
+    return NULL;
 }
 
 float ff_joint_most(const ff_joint *joint)
 {
     return longest(joint->jump.a, joint->jump.b, 0, FF_COLLIDER_ROOT) +
-           MOST_OF_SPEED * longest(joint->rush_a, joint->rush_b, 0, FF_COLLIDER_ROOT);
+           MOST_OF_SPEED * longest(joint->rush_a, joint->rush_b, 0, FF_COLLIDER_ROOT) + joint->most_arc;
 }

@@ -216,7 +216,7 @@ ff_plan_options ff_plan_options_default(void)
                              .improve = 15,
                              .horizon = 16,
                              .time_horizon = 5.5,
-                             .inflation = 2.5,
+                             .inflation = 3.0,
                              .inflation_step = 0.5,
                              .margin = 0.05,
                              .stand_margin = 0.03,

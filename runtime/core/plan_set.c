@@ -158,21 +158,32 @@ static void take_next(ff_action_set *set, uint32_t index, const uint16_t *place)
     if (a->next_count > set->next_most) set->next_most = a->next_count;
 }
 
-/* What joins b to a, whose S0 lies at anchor and is turned by a's theta. */
-static void find_joint(const ff_action_set *set, const ff_set_action *a, const ff_set_action *b,
-                       const float anchor[2], ff_joint *out)
+/* What joins a successor to a. */
+static void find_joint(const ff_action_set *set, const ff_set_action *a, const ff_set_next *next,
+                       ff_joint *out)
 {
+    const ff_set_action *b = &set->actions[next->action];
     const ff_knot *end = &set->samples[a->first_knot + a->knots - 1], *begin = &set->samples[b->first_knot];
     const ff_set_ends *before = a->flags & FF_SET_TO_STANDING ? NULL : &set->ends[a - set->actions];
     const float turn[2] = {a->cosine, a->sine};
     ff_knot jump;
     for (int i = 0; i < FF_TRACK_LANES; ++i) {
-        float x = end->a[i] - anchor[0], y = end->b[i] - anchor[1];
+        float x = end->a[i] - (next->other ? 0.0f : a->land[0]);
+        float y = end->b[i] - (next->other ? 0.0f : a->land[1]);
         jump.a[i] = a->cosine * x + a->sine * y - begin->a[i];
         jump.b[i] = a->cosine * y - a->sine * x - begin->b[i];
         jump.y[i] = end->y[i] - begin->y[i];
     }
-    ff_joint_make(before, turn, &set->ends[b - set->actions], &jump, out);
+    ff_joint_make(before, turn, &set->ends[next->action], &jump, out);
+}
+
+static void find_joints(ff_action_set *set)
+{
+    for (uint32_t i = 0; i < set->count; ++i) {
+        const ff_set_action *a = &set->actions[i];
+        for (uint32_t k = a->first_next; k < a->first_next + a->next_count; ++k)
+            find_joint(set, a, &set->next[k], &set->joints[k]);
+    }
 }
 
 /* With its speed varied, what share of its cost at its own speed does a successor (with its joint) cost at least? Then no
@@ -199,9 +210,7 @@ static void measure_next(ff_action_set *set)
             ff_set_next *next = &set->next[a->first_next + k];
             const ff_set_action *b = &set->actions[next->action];
             const float anchor[2] = {next->other ? 0.0f : a->land[0], next->other ? 0.0f : a->land[1]};
-            ff_joint *joint = &set->joints[a->first_next + k];
-            find_joint(set, a, b, anchor, joint);
-            next->jump = ff_joint_most(joint);
+            next->jump = ff_joint_most(&set->joints[a->first_next + k]);
             float ra = a->root_end[0] - anchor[0], rb = a->root_end[1] - anchor[1];
             float ea = a->cosine * b->root_end[0] - a->sine * b->root_end[1] - ra;
             float eb = a->sine * b->root_end[0] + a->cosine * b->root_end[1] - rb;
@@ -327,6 +336,9 @@ static ff_status fill(ff_action_set *set, const recipe *from, ff_error *error)
     for (uint32_t i = 0; i < set->count; ++i)
         take_next(set, i, place);
     free(place);
+    find_joints(set);
+    ff_status status = ff_set_find_arcs(set, &body, error);
+    if (status != FF_OK) return status;
     measure_next(set);
     measure_reach_share(set);
     for (uint32_t i = 0; i < set->count; ++i)

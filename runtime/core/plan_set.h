@@ -60,12 +60,13 @@ typedef struct ff_joint {
     ff_knot jump; /* m: where the action before ends, off where this one begins */
     /* m: by how much faster they move then, times the span in which they lose it */
     float rush_a[FF_TRACK_LANES], rush_b[FF_TRACK_LANES];
+    float arc_a[FF_TRACK_LANES], arc_b[FF_TRACK_LANES]; /* m: off the straight way half way (plan_arc.c) */
     float from[FF_TRACK_LANES]; /* s from the start, until when all of the jump is left */
     float rate[FF_TRACK_LANES]; /* 1/s: of the span in which it then fades */
     float over;                 /* s from the start, when nothing is left */
-    /* How far colliders are moved about the root: m, of jumps of head and hands, feet, root, and by speeds; s and 1/s, between
+    /* How far colliders are moved about the root: m, of jumps of head and hands, feet, root, by speeds, on arcs; s and 1/s, between
      * when feet get to their places at the latest. */
-    float most_body, most_feet, most_root, most_rush, last_from, last_rate;
+    float most_body, most_feet, most_root, most_rush, most_arc, last_from, last_rate;
 } ff_joint;
 
 /* What may follow, cheapest first. */

@@ -201,7 +201,7 @@ static void begin_course(const ff_sight *sight, course *c)
         float t = time_at(c, k), move[2];
         ff_set_root root = ff_set_root_at(sight->set, c->action, t);
         if (t < c->joint->over) {
-            ff_joint_move(c->joint, FF_COLLIDER_ROOT, t, move);
+            ff_joint_move(c->joint, t, move);
             root.a += move[0];
             root.b += move[1];
             root.about += ff_joint_about(c->joint, t);

@@ -102,6 +102,11 @@ static void colliders_at(const ff_action_set *set, const ff_plan *plan, uint32_t
         jump.y[i] = (float)(before.y[i] - begin.y[i]);
     }
     ff_joint_make(stood ? NULL : &set->ends[last->action], turn, &set->ends[step->action], &jump, &joint);
+    const ff_joint *known = ff_set_joint(set, last->action, step->action);
+    if (known) {
+        memcpy(joint.arc_a, known->arc_a, sizeof joint.arc_a);
+        memcpy(joint.arc_b, known->arc_b, sizeof joint.arc_b);
+    }
     ff_joint_add(&joint, (float)t, &none, &moved);
     for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
         ff_vec2 move = ff_from_frame2(axis, ff_v2((double)moved.a[i], (double)moved.b[i]));

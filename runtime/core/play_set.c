@@ -37,10 +37,16 @@ static void sample_from(const source *of, const ff_play_action *action, double t
     ff_legs_of_pose(of->body, out->hips, out->rotations, out->ball, out->foot);
 }
 
+void ff_play_action_sample(const ff_pack *pack, const ff_body_frame *body, const ff_play_action *action,
+                           double time, ff_play_sample *out)
+{
+    const source of = {pack, body};
+    sample_from(&of, action, time, out);
+}
+
 void ff_play_sample_at(const ff_play_set *set, uint32_t action, double time, ff_play_sample *out)
 {
-    const source of = {set->pack, &set->space->body};
-    sample_from(&of, &set->actions[action], time, out);
+    ff_play_action_sample(set->pack, &set->space->body, &set->actions[action], time, out);
 }
 
 ff_root_frame ff_play_root_at(const ff_play_set *set, uint32_t index, double time)

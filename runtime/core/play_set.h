@@ -57,6 +57,10 @@ typedef struct ff_play_sample {
 
 void ff_play_sample_at(const ff_play_set *set, uint32_t action, double time, ff_play_sample *out);
 
+/* The same of one action that belongs to no set. */
+void ff_play_action_sample(const ff_pack *pack, const ff_body_frame *body, const ff_play_action *action,
+                           double time, ff_play_sample *out);
+
 /* The root alone, seen from S0. */
 ff_root_frame ff_play_root_at(const ff_play_set *set, uint32_t action, double time);
 

@@ -80,12 +80,12 @@ static void bounds_of_joints_hold(void **state)
         double about = (double)ff_joint_about(p.joint, t), most = (double)ff_joint_most(p.joint);
         const int root = FF_COLLIDER_ROOT;
         ff_vec2 base = ff_v2((double)(out.a[root] - at.a[root]), (double)(out.b[root] - at.b[root]));
+        float move[2];
+        ff_joint_move(p.joint, t, move);
+        FF_ASSERT_NEAR(base.a, (double)move[0], 1e-6);
+        FF_ASSERT_NEAR(base.b, (double)move[1], 1e-6);
         for (int c = 0; c < FF_COLLIDER_COUNT; ++c) {
-            float move[2];
             ff_vec2 moved = ff_v2((double)(out.a[c] - at.a[c]), (double)(out.b[c] - at.b[c]));
-            ff_joint_move(p.joint, c, t, move);
-            FF_ASSERT_NEAR(moved.a, (double)move[0], 1e-6);
-            FF_ASSERT_NEAR(moved.b, (double)move[1], 1e-6);
             double from_root = ff_length2(ff_sub2(moved, base));
             FF_ASSERT_BELOW(from_root, about + 1e-5);
             FF_ASSERT_BELOW(ff_length2(moved), most + 1e-5);
@@ -169,14 +169,14 @@ static void played_bodies_are_where_their_tracks_have_them(void **state)
         for (int i = 0; i < PEOPLE; ++i)
             look_at(crowd, &figure, agents[i], &m);
     }
-    static const double most[FF_COLLIDER_COUNT] = {0.025, 0.04, 0.04, 0.04, 0.04, 0.02};
+    static const double most[FF_COLLIDER_COUNT] = {0.025, 0.025, 0.025, 0.04, 0.04, 0.02};
     for (int c = 0; c < FF_COLLIDER_COUNT; ++c) {
         qsort(m.off[c], m.count, sizeof **m.off, by_size);
         double almost = m.off[c][m.count * 99 / 100];
         print_message("%s%.1f", c == 0 ? "  off their tracks in 99 of 100 moments, cm: " : ", ",
                       100.0 * almost);
         FF_ASSERT_BELOW(almost, most[c]);
-        FF_ASSERT_BELOW(m.off[c][m.count - 1], 0.1);
+        FF_ASSERT_BELOW(m.off[c][m.count - 1], 0.07);
         free(m.off[c]);
     }
     print_message("\n");
