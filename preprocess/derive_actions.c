@@ -1,7 +1,9 @@
 #include "preprocess/derive_actions.h"
 
-#include "preprocess/derive_motion.h"
+#include "preprocess/annotate.h"
+#include "preprocess/derive_reactive.h"
 #include "preprocess/plant_edit.h"
+#include "preprocess/standing.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 
@@ -11,7 +13,7 @@
 
 #include <xxhash.h>
 
-typedef enum recipe_kind { STAND, MOVE, START, STOP } recipe_kind;
+typedef enum recipe_kind { STAND, MOVE, START, STOP, REACTIVE } recipe_kind;
 
 /* What may be derived, and which captured action would do instead. */
 typedef struct recipe {
@@ -19,24 +21,31 @@ typedef struct recipe {
     recipe_kind kind;
     ff_stance_move move;
     double least, most; /* of the captured one: rad of turn, or m of the first foot's way */
+    ff_reactive_kind reactive;
 } recipe;
 
-#define TURN(degrees, low, high)                                                                             \
+#define MADE(name_, kind_, low_, high_, ...)                                                                 \
     {                                                                                                        \
-        "turn left by " #degrees, MOVE, {0.0, 0.0, (degrees)*FF_DEG, FF_LEFT, 0.36 + 0.002 * (degrees)},     \
-            (low)*FF_DEG, (high)*FF_DEG                                                                      \
+        .name = name_, .kind = kind_, .least = low_, .most = high_, __VA_ARGS__                              \
     }
+#define TURN(degrees, low, high)                                                                             \
+    MADE("turn left by " #degrees, MOVE, (low)*FF_DEG, (high)*FF_DEG,                                        \
+         .move = {0.0, 0.0, (degrees)*FF_DEG, FF_LEFT, 0.36 + 0.002 * (degrees)})
 static const recipe recipes[] = {
-    {"stand", STAND, {0.0, 0.0, 0.0, FF_LEFT, 0.0}, 0.0, 0.0},
-    {"start", START, {0.0, 0.0, 0.0, FF_LEFT, 0.0}, 0.25, 1.5},
-    {"stop", STOP, {0.0, 0.0, 0.0, FF_LEFT, 0.0}, 0.25, 1.5},
+    MADE("stand", STAND, 0.0, 0.0, .move = {.first = FF_LEFT}),
+    MADE("start", START, 0.25, 1.5, .move = {.first = FF_LEFT}),
+    MADE("stop", STOP, 0.25, 1.5, .move = {.first = FF_LEFT}),
     TURN(20, 12.0, 32.0),
     TURN(45, 36.0, 60.0),
     TURN(90, 75.0, 110.0),
-    {"side step left", MOVE, {0.0, 0.30, 0.0, FF_LEFT, 0.42}, 0.2, 0.6},
-    {"short side step left", MOVE, {0.0, 0.15, 0.0, FF_LEFT, 0.36}, 0.08, 0.2},
-    {"step back", MOVE, {-0.30, 0.0, 0.0, FF_LEFT, 0.44}, 0.2, 0.7},
-    {"short step", MOVE, {0.22, 0.0, 0.0, FF_LEFT, 0.40}, 0.1, 0.32},
+    MADE("side step left", MOVE, 0.2, 0.6, .move = {0.0, 0.30, 0.0, FF_LEFT, 0.42}),
+    MADE("short side step left", MOVE, 0.08, 0.2, .move = {0.0, 0.15, 0.0, FF_LEFT, 0.36}),
+    MADE("step back", MOVE, 0.2, 0.7, .move = {-0.30, 0.0, 0.0, FF_LEFT, 0.44}),
+    MADE("short step", MOVE, 0.1, 0.32, .move = {0.22, 0.0, 0.0, FF_LEFT, 0.40}),
+    MADE("jump", REACTIVE, 0.0, 0.3, .reactive = FF_REACTIVE_JUMP),
+    MADE("jump forward", REACTIVE, 0.6, 1.6, .reactive = FF_REACTIVE_OVER),
+    MADE("leap", REACTIVE, 0.8, 2.4, .reactive = FF_REACTIVE_LEAP),
+    MADE("duck", REACTIVE, 0.0, 0.3, .reactive = FF_REACTIVE_DUCK),
 };
 enum { RECIPE_COUNT = sizeof recipes / sizeof recipes[0] };
 
@@ -47,9 +56,33 @@ static bool between(double value, double low, double high)
     return value >= low && value <= high;
 }
 
-/* Would this captured action do for the recipe? */
-static bool does(const ff_pack_action *r, const recipe *what)
+/* m: the feet are both so high at once in a jump that is of use, the head so low in a duck. */
+static const double FEET_UP = 0.45, HEAD_DOWN = 1.12;
+
+/* Is the captured one of the recipe's kind, between what it asks for at both ends, and high or low enough? */
+static bool does_reactive(const ff_action *action, const recipe *what)
 {
+    const ff_pack_action *r = &action->record;
+    bool duck = what->reactive == FF_REACTIVE_DUCK, leap = what->reactive == FF_REACTIVE_LEAP;
+    uint32_t ends = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING, wanted = leap ? 0 : ends;
+    double way = ff_length2(ff_v2((double)r->root_displacement[0], (double)r->root_displacement[1]));
+    if (r->mode != (duck ? FF_MODE_CROUCH : FF_MODE_JUMP) || (r->flags & ends) != wanted ||
+        !between(way, what->least, what->most) || fabs((double)r->theta) > 15.0 * FF_DEG ||
+        (leap && (double)r->speed > 2.0))
+        return false;
+    double high = 0.0, low = INFINITY;
+    for (uint32_t k = 0; k < r->collider_samples; ++k) {
+        const ff_pack_collider *at = action->colliders[k];
+        high = ff_max(high, ff_min((double)at[FF_COLLIDER_FOOT_L].y, (double)at[FF_COLLIDER_FOOT_R].y));
+        low = ff_min(low, (double)at[FF_COLLIDER_HEAD].y);
+    }
+    return duck ? low <= HEAD_DOWN : high >= FEET_UP;
+}
+
+/* Would this captured action do for the recipe? */
+static bool does(const ff_action *action, const recipe *what)
+{
+    const ff_pack_action *r = &action->record;
     bool from = (r->flags & FF_ACTION_FROM_STANDING) != 0, to = (r->flags & FF_ACTION_TO_STANDING) != 0;
     double way = ff_length2(ff_v2((double)r->swing_displacement[0], (double)r->swing_displacement[1]));
     double alpha = fabs((double)r->alpha), turn = fabs((double)r->theta);
@@ -59,6 +92,8 @@ static bool does(const ff_pack_action *r, const recipe *what)
         return r->mode == FF_MODE_IDLE;
     case START:
         return r->mode == FF_MODE_START && from && fits && alpha < 30.0 * FF_DEG;
+    case REACTIVE:
+        return does_reactive(action, what);
     case STOP:
         return r->mode == FF_MODE_STOP && to && fits && alpha < 30.0 * FF_DEG;
     default:
@@ -76,7 +111,7 @@ static bool is_there(const ff_build_clip *clips, int count, const recipe *what)
 {
     for (int i = 0; i < count; ++i)
         for (int k = 0; k < clips[i].actions.count; ++k)
-            if (does(&clips[i].actions.items[k].record, what)) return true;
+            if (does(&clips[i].actions.items[k], what)) return true;
     return false;
 }
 
@@ -132,8 +167,9 @@ static void keep_wanted(ff_actions *actions, recipe_kind kind)
     for (int i = 0; i < actions->count; ++i) {
         ff_action *a = &actions->items[i];
         uint32_t ends = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING;
-        bool wanted = kind == STAND ? a->record.mode == FF_MODE_IDLE
-                                    : a->record.mode != FF_MODE_IDLE && (a->record.flags & ends);
+        bool wanted = kind == REACTIVE ? true
+                      : kind == STAND  ? a->record.mode == FF_MODE_IDLE
+                                       : a->record.mode != FF_MODE_IDLE && (a->record.flags & ends);
         if (!wanted) continue;
         a->record.flags |= FF_ACTION_DERIVED;
         actions->items[kept++] = *a;
@@ -145,8 +181,9 @@ static void keep_wanted(ff_actions *actions, recipe_kind kind)
 }
 
 static ff_status derive_motion(const ff_derive_base *base, const recipe *what, ff_motion *out,
-                               ff_error *error)
+                               ff_reactive_times *times, ff_error *error)
 {
+    memset(times, 0, sizeof *times);
     switch (what->kind) {
     case STAND:
         return ff_derive_stand(base, out, error);
@@ -154,36 +191,87 @@ static ff_status derive_motion(const ff_derive_base *base, const recipe *what, f
         return ff_derive_start(base, out, error);
     case STOP:
         return ff_derive_stop(base, out, error);
+    case REACTIVE:
+        return ff_derive_reactive(base, what->reactive, out, times, error);
     default:
         return ff_derive_stance_move(base, &what->move, out, error);
     }
 }
 
-/* Small steps on the spot are hard to find: their times are known. */
-static ff_status known_plants(const ff_find_settings *find, const recipe *what, const ff_clip *clip,
-                              ff_plants *out, ff_error *error)
+/* When the feet of a move stand. */
+static void times_of_move(const ff_stance_move *move, ff_reactive_times *out)
 {
     double leaves[2], lands[2];
-    ff_stance_times(&what->move, leaves, lands);
-    ff_plant_edit known[4];
+    ff_stance_times(move, leaves, lands);
     for (int i = 0; i < 2; ++i) {
-        ff_plant_edit edit = {.kind = FF_EDIT_ADD,
-                              .foot = i ? 1 - what->move.first : what->move.first,
-                              .start = 0,
-                              .end = (int)(leaves[i] / clip->frame_time),
-                              .flat_start = FF_EDIT_LEAVE,
-                              .flat_end = FF_EDIT_LEAVE};
-        known[2 * i] = edit;
-        edit.start = (int)ceil(lands[i] / clip->frame_time);
-        edit.end = clip->frame_count - 1;
-        known[2 * i + 1] = edit;
+        int foot = i ? 1 - move->first : move->first;
+        out->plant[2 * i].foot = out->plant[2 * i + 1].foot = foot;
+        out->plant[2 * i].to = leaves[i];
+        out->plant[2 * i + 1].from = lands[i];
+        out->plant[2 * i + 1].to = INFINITY;
     }
-    ff_plant_edits edits = {.items = known, .count = 4, .all = true};
+    out->plant_count = 4;
+}
+
+/* Small steps on the spot, and jumps, are hard to find: their times are known. */
+static ff_status known_plants(const ff_find_settings *find, const ff_reactive_times *times,
+                              const ff_clip *clip, ff_plants *out, ff_error *error)
+{
+    ff_plant_edit known[FF_REACTIVE_PLANTS];
+    for (int i = 0; i < times->plant_count; ++i) {
+        double last = times->plant[i].to / clip->frame_time;
+        known[i] = (ff_plant_edit){.kind = FF_EDIT_ADD,
+                                   .foot = times->plant[i].foot,
+                                   .start = (int)ceil(times->plant[i].from / clip->frame_time),
+                                   .end = last < clip->frame_count - 1 ? (int)last : clip->frame_count - 1,
+                                   .flat_start = FF_EDIT_LEAVE,
+                                   .flat_end = FF_EDIT_LEAVE};
+    }
+    ff_plant_edits edits = {.items = known, .count = times->plant_count, .all = true};
     ff_status status = ff_plants_find_edited(clip, find, &edits, out, error);
     for (int i = 0; status == FF_OK && i < out->count; ++i)
         out->items[i].written = false;
     out->found_count = 0; /* nobody needs to see what was found without knowing */
     return status;
+}
+
+/* The one action of a motion whose times are known. */
+static ff_status cut_reactive(const ff_cut_settings *cut, const ff_rig *rig, const ff_motion *motion,
+                              const ff_plants *plants, const ff_reactive_times *times, ff_actions *out,
+                              ff_error *error)
+{
+    int swing = 1 - times->support;
+    ff_step_span span = {.first = (int)(times->first / motion->frame_time + 0.5),
+                         .last = (int)(times->last / motion->frame_time + 0.5),
+                         .mode = times->mode,
+                         .flags = times->flags};
+    span.support = ff_plant_at(plants, times->support, span.first);
+    span.swing = ff_plant_at(plants, swing, span.last);
+    span.swing_from = ff_plant_at(plants, swing, span.first);
+    memset(out, 0, sizeof *out);
+    if (span.support < 0 || span.swing < 0)
+        return ff_fail(error, FF_ERR_NO_DATA, "no foot stands at the ends of a derived action");
+    out->items = ff_calloc(1, sizeof *out->items);
+    if (!out->items) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for a derived action");
+    out->count = 1;
+    ff_action_annotate(cut, rig, motion, plants, &span, out->items);
+    return FF_OK;
+}
+
+/* Plants and actions of the motion. */
+static ff_status cut_motion(const ff_build_shared *shared, const recipe *what, ff_reactive_times *times,
+                            ff_build_clip *out, ff_error *error)
+{
+    const ff_settings *settings = shared->settings;
+    if (what->kind == MOVE) times_of_move(&what->move, times);
+    ff_status status = what->kind == MOVE || what->kind == REACTIVE
+                           ? known_plants(&settings->find, times, &out->clip, &out->plants, error)
+                           : ff_plants_find(&out->clip, &settings->find, &out->plants, error);
+    if (status != FF_OK) return status;
+    if (what->kind == REACTIVE)
+        return cut_reactive(&settings->cut, shared->rig, &out->motion, &out->plants, times, &out->actions,
+                            error);
+    return ff_actions_cut(&settings->cut, shared->rig, &out->motion, &out->plants, -1, &out->actions, error);
 }
 
 static ff_status derive_clip(const ff_derive_base *base, const ff_build_shared *shared,
@@ -202,15 +290,10 @@ static ff_status derive_clip(const ff_derive_base *base, const ff_build_shared *
     out->source = malloc(length);
     if (!out->source) return ff_fail(error, FF_ERR_NO_MEMORY, "no memory for \"%s\"", what->name);
     memcpy(out->source, from->source, length);
-    ff_status status = derive_motion(base, what, &out->motion, error);
+    ff_reactive_times times;
+    ff_status status = derive_motion(base, what, &out->motion, &times, error);
     if (status == FF_OK) status = clip_of(base->rig, &out->motion, what->name, &out->clip, error);
-    if (status == FF_OK)
-        status = what->kind == MOVE
-                     ? known_plants(&shared->settings->find, what, &out->clip, &out->plants, error)
-                     : ff_plants_find(&out->clip, &shared->settings->find, &out->plants, error);
-    if (status == FF_OK)
-        status = ff_actions_cut(&shared->settings->cut, base->rig, &out->motion, &out->plants, -1,
-                                &out->actions, error);
+    if (status == FF_OK) status = cut_motion(shared, what, &times, out, error);
     if (status == FF_OK) {
         status = ff_build_clip_store(out, shared);
         if (status != FF_OK) *error = out->error;
