@@ -46,6 +46,7 @@ static const recipe recipes[] = {
     MADE("jump forward", REACTIVE, 0.6, 1.6, .reactive = FF_REACTIVE_OVER),
     MADE("leap", REACTIVE, 0.8, 2.4, .reactive = FF_REACTIVE_LEAP),
     MADE("duck", REACTIVE, 0.0, 0.3, .reactive = FF_REACTIVE_DUCK),
+    MADE("duck and stop", REACTIVE, 0.1, 0.9, .reactive = FF_REACTIVE_DIVE),
 };
 enum { RECIPE_COUNT = sizeof recipes / sizeof recipes[0] };
 
@@ -63,8 +64,10 @@ static const double FEET_UP = 0.45, HEAD_DOWN = 1.12;
 static bool does_reactive(const ff_action *action, const recipe *what)
 {
     const ff_pack_action *r = &action->record;
-    bool duck = what->reactive == FF_REACTIVE_DUCK, leap = what->reactive == FF_REACTIVE_LEAP;
-    uint32_t ends = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING, wanted = leap ? 0 : ends;
+    bool leap = what->reactive == FF_REACTIVE_LEAP, dive = what->reactive == FF_REACTIVE_DIVE;
+    bool duck = dive || what->reactive == FF_REACTIVE_DUCK;
+    uint32_t ends = FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING;
+    uint32_t wanted = leap ? 0 : (dive ? (uint32_t)FF_ACTION_TO_STANDING : ends);
     double way = ff_length2(ff_v2((double)r->root_displacement[0], (double)r->root_displacement[1]));
     if (r->mode != (duck ? FF_MODE_CROUCH : FF_MODE_JUMP) || (r->flags & ends) != wanted ||
         !between(way, what->least, what->most) || fabs((double)r->theta) > 15.0 * FF_DEG ||
@@ -190,7 +193,7 @@ static ff_status derive_motion(const ff_derive_base *base, const recipe *what, f
     case START:
         return ff_derive_start(base, out, error);
     case STOP:
-        return ff_derive_stop(base, out, error);
+        return ff_derive_stop(base, false, out, error);
     case REACTIVE:
         return ff_derive_reactive(base, what->reactive, out, times, error);
     default:

@@ -92,10 +92,12 @@ double ff_derive_hermite(double x0, double v0, double x1, double v1, double t, d
 }
 
 /* Of the leg, of which ducking lowers the hips, and moves them back over the feet that stay flat. */
-static const double DOWN = 0.58, BACK = 0.10;
+static const double DOWN = 0.48, BACK = 0.10;
 static const double LEAN = 0.95;   /* rad, of the trunk, by hips, spine and chest */
 static const double LOOK_UP = 0.5; /* of it, that neck and head take back */
 static const double REACH = 0.5;   /* rad, of the arms forward: they balance the hips */
+
+static const double GO_DOWN = 0.50, STAY = 0.80; /* s: faster would be a fall */
 
 static void lean(ff_derive_body *body, int role, double angle)
 {
@@ -113,4 +115,11 @@ void ff_derive_crouch(const ff_rig *rig, double share, ff_derive_body *body)
     lean(body, FF_ROLE_HEAD, -0.5 * share * LOOK_UP * LEAN);
     lean(body, FF_ROLE_SHOULDER_L, -share * REACH);
     lean(body, FF_ROLE_SHOULDER_R, -share * REACH);
+}
+
+double ff_derive_ducked(double time)
+{
+    double rises = GO_DOWN + STAY;
+    return time < rises ? ff_smooth(time / GO_DOWN)
+                        : 1.0 - ff_smooth((time - rises) / (FF_DERIVE_DUCK - rises));
 }

@@ -37,6 +37,10 @@ double ff_derive_hermite(double x0, double v0, double x1, double v1, double t, d
 /* Lower the hips until both legs reach their feet, then pose the legs: frame k. */
 void ff_derive_put_frame(const ff_rig *rig, const ff_derive_body *body, int k, ff_motion *motion);
 
+#define FF_DERIVE_DUCK 1.85 /* s */
+/* How far down one is, 0 to 1, at a time of a duck. */
+double ff_derive_ducked(double time);
+
 /* Crouched, by a share of a duck: hips down and back, trunk forward, eyes ahead. */
 void ff_derive_crouch(const ff_rig *rig, double share, ff_derive_body *body);
 

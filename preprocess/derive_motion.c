@@ -152,20 +152,34 @@ ff_status ff_derive_start(const ff_derive_base *base, ff_motion *out, ff_error *
     return status;
 }
 
-ff_status ff_derive_stop(const ff_derive_base *base, ff_motion *out, ff_error *error)
+/* Phases of the walk at which the last step begins, the right foot whole on the floor, and its left toes leave. */
+static void stop_phases(const ff_derive_base *base, double *first, double *off)
 {
     const ff_pack_example *r = &base->walk->record;
+    *first = (double)r->key[2] + FF_DERIVE_FULL;
+    *off = (double)r->key[3] > *first ? (double)r->key[3] : *first + 0.05;
+}
+
+ff_stop_times ff_derive_stop_times(const ff_derive_base *base, bool ducking)
+{
+    double first, off, period = (double)base->walk->record.period, begin = 0.7 * period;
+    stop_phases(base, &first, &off);
+    return (ff_stop_times){.begin = begin,
+                           .leaves = begin + (off - first) * period,
+                           .lands = begin + 0.8 * base->settings->stop,
+                           .end = begin + (ducking ? FF_DERIVE_DUCK : base->settings->stop)};
+}
+
+ff_status ff_derive_stop(const ff_derive_base *base, bool ducking, ff_motion *out, ff_error *error)
+{
     over_right w = pass_over_right(base);
-    /* The last step begins when the right foot is whole on the floor. */
-    double first = (double)r->key[2] + FF_DERIVE_FULL, lead = 0.7 * w.period, begin = lead,
-           end = begin + base->settings->stop;
-    double off =
-        (double)r->key[3] > first ? (double)r->key[3] : first + 0.05; /* phase, the left toes leave */
+    const ff_stop_times at = ff_derive_stop_times(base, ducking);
+    double first, off, begin = at.begin, end = begin + base->settings->stop;
+    stop_phases(base, &first, &off);
     ff_derive_body stand = stand_at_right(base, &w), from = walk_body(base, &w, first),
                    toes = walk_body(base, &w, off);
-    double leaves = begin + (off - first) * w.period, lands = begin + 0.8 * base->settings->stop;
     ff_status status =
-        ff_motion_alloc(out, ff_derive_frames(end + FF_DERIVE_STANDS), 1.0 / FF_DERIVE_RATE, error);
+        ff_motion_alloc(out, ff_derive_frames(at.end + FF_DERIVE_STANDS), 1.0 / FF_DERIVE_RATE, error);
     for (int k = 0; status == FF_OK && k < out->frame_count; ++k) {
         double time = k / FF_DERIVE_RATE, t = time - begin;
         double phase = time <= begin
@@ -181,11 +195,12 @@ ff_status ff_derive_stop(const ff_derive_base *base, ff_motion *out, ff_error *e
             b.feet[FF_RIGHT] = ff_derive_mix_feet(&walk.feet[FF_RIGHT], &stand.feet[FF_RIGHT], mix);
             /* The left toes leave where and when the walk's would. */
             ff_derive_body here = walk_body(base, &w, ff_min(first + t / w.period, off));
-            b.feet[FF_LEFT] = time < leaves ? here.feet[FF_LEFT]
-                                            : ff_derive_swing(&toes.feet[FF_LEFT], &stand.feet[FF_LEFT],
-                                                              (time - leaves) / (lands - leaves),
-                                                              base->settings->lift, RISE);
+            b.feet[FF_LEFT] = time < at.leaves ? here.feet[FF_LEFT]
+                                               : ff_derive_swing(&toes.feet[FF_LEFT], &stand.feet[FF_LEFT],
+                                                                 (time - at.leaves) / (at.lands - at.leaves),
+                                                                 base->settings->lift, RISE);
             b.hips.y -= 0.5 * SWAY * hump(time, begin, end);
+            if (ducking) ff_derive_crouch(base->rig, ff_derive_ducked(t), &b);
         }
         ff_derive_put_frame(base->rig, &b, k, out);
     }

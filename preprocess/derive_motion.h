@@ -30,7 +30,13 @@ ff_status ff_derive_stance_move(const ff_derive_base *base, const ff_stance_move
                                 ff_error *error);
 /* Standing, a step with the left foot, then half a cycle of the walk. */
 ff_status ff_derive_start(const ff_derive_base *base, ff_motion *out, ff_error *error);
-/* The walk, then a step with the left foot that ends beside the right one, standing. */
-ff_status ff_derive_stop(const ff_derive_base *base, ff_motion *out, ff_error *error);
+/* The walk, then a step with the left foot that ends beside the right one, standing; ducking: down meanwhile, and up again. */
+ff_status ff_derive_stop(const ff_derive_base *base, bool ducking, ff_motion *out, ff_error *error);
+
+/* When the last step of a stop begins, the left foot leaves and lands, and one stands, s. */
+typedef struct ff_stop_times {
+    double begin, leaves, lands, end;
+} ff_stop_times;
+ff_stop_times ff_derive_stop_times(const ff_derive_base *base, bool ducking);
 
 #endif

@@ -17,8 +17,6 @@ static const double ARMS_BACK = 0.7, ARMS_UP = -1.6; /* rad, of the shoulders */
 /* Of a leap: s, m. */
 static const double LEAP = 0.90, LEAP_OFF = 0.32, LEAP_FLIGHT = 0.40, LEAP_BEHIND = 0.84;
 static const double LEAP_MORE = 0.75, LEAP_LIFT = 0.50, LEAP_LOW = -0.05, LEAP_HIGH = 0.04;
-/* Of a duck: s. Faster would be a fall. */
-static const double GO_DOWN = 0.50, STAY = 0.45, COME_UP = 0.55;
 
 /* 0 to 1 and back, over half of the time near 1. */
 static double plateau(double s)
@@ -30,13 +28,6 @@ static double plateau(double s)
 static double gone(double time, double from, double to)
 {
     return ff_smooth((time - from) / (to - from));
-}
-
-/* Down, there for a while, up again. */
-static double down_and_up(double time, double from)
-{
-    double stays = from + GO_DOWN, rises = stays + STAY;
-    return time < rises ? gone(time, from, stays) : 1.0 - gone(time, rises, rises + COME_UP);
 }
 
 static void turn(ff_derive_body *b, int role, double angle)
@@ -142,7 +133,7 @@ static ff_status derive_jump(const ff_derive_base *base, double forward, ff_moti
 static ff_status derive_duck(const ff_derive_base *base, ff_motion *out, ff_reactive_times *times,
                              ff_error *error)
 {
-    double begin = FF_DERIVE_STANDS, end = begin + GO_DOWN + STAY + COME_UP;
+    double begin = FF_DERIVE_STANDS, end = begin + FF_DERIVE_DUCK;
     *times = (ff_reactive_times){.plant = {{FF_LEFT, 0.0, INFINITY}, {FF_RIGHT, 0.0, INFINITY}},
                                  .plant_count = 2,
                                  .first = begin,
@@ -155,7 +146,7 @@ static ff_status derive_duck(const ff_derive_base *base, ff_motion *out, ff_reac
     ff_derive_body stand = ff_derive_stand_body(base, ff_v3(0.0, 0.0, 0.0));
     for (int k = 0; status == FF_OK && k < out->frame_count; ++k) {
         ff_derive_body b = stand;
-        ff_derive_crouch(base->rig, down_and_up(k / FF_DERIVE_RATE, begin), &b);
+        ff_derive_crouch(base->rig, ff_derive_ducked(k / FF_DERIVE_RATE - begin), &b);
         ff_derive_put_frame(base->rig, &b, k, out);
     }
     return status;
@@ -241,6 +232,22 @@ static ff_status derive_leap(const ff_derive_base *base, ff_motion *out, ff_reac
     return status;
 }
 
+static ff_status derive_dive(const ff_derive_base *base, ff_motion *out, ff_reactive_times *times,
+                             ff_error *error)
+{
+    const ff_stop_times at = ff_derive_stop_times(base, true);
+    double right = at.begin - FF_DERIVE_FULL * (double)base->walk->record.period;
+    *times = (ff_reactive_times){
+        .plant = {{FF_LEFT, 0.0, at.leaves}, {FF_RIGHT, right, INFINITY}, {FF_LEFT, at.lands, INFINITY}},
+        .plant_count = 3,
+        .first = at.begin,
+        .last = at.end,
+        .support = FF_RIGHT,
+        .mode = FF_MODE_CROUCH,
+        .flags = FF_ACTION_TO_STANDING};
+    return ff_derive_stop(base, true, out, error);
+}
+
 ff_status ff_derive_reactive(const ff_derive_base *base, ff_reactive_kind kind, ff_motion *out,
                              ff_reactive_times *times, ff_error *error)
 {
@@ -251,6 +258,8 @@ ff_status ff_derive_reactive(const ff_derive_base *base, ff_reactive_kind kind, 
         return derive_jump(base, FORWARD, out, times, error);
     case FF_REACTIVE_LEAP:
         return derive_leap(base, out, times, error);
+    case FF_REACTIVE_DIVE:
+        return derive_dive(base, out, times, error);
     default:
         return derive_duck(base, out, times, error);
     }

@@ -10,6 +10,7 @@ typedef enum ff_reactive_kind {
     FF_REACTIVE_OVER, /* the same, forward */
     FF_REACTIVE_LEAP, /* from the right foot far onto the left one, out of a walk and on with it */
     FF_REACTIVE_DUCK, /* down and up again, feet where they are; from standing to standing */
+    FF_REACTIVE_DIVE, /* the last step of a walk, down while the left foot comes beside the right one, and up */
 } ff_reactive_kind;
 
 enum { FF_REACTIVE_PLANTS = 4 };

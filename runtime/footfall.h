@@ -635,6 +635,7 @@ typedef enum ff_plan_event {
     FF_EVENT_NEARBY,   /* somebody's new plan, or an obstacle on a path, is in the way of the agent's own */
     FF_EVENT_SURPRISE, /* what nobody foresees is in the way: a moved obstacle, one who moves by velocity */
     FF_EVENT_EXPIRY,   /* the plan is old, or nearly done */
+    FF_EVENT_DANGER,   /* something that moves hits within about a second: the plan may jump and duck */
     FF_EVENT_PLAN_COUNT
 } ff_plan_event;
 typedef struct ff_plan_counts {
@@ -642,6 +643,7 @@ typedef struct ff_plan_counts {
     uint32_t searches, plans;     /* plans tried for, and made known */
     uint32_t failed, conflicting; /* no plan found; found, but another's came first */
     uint32_t reactions;           /* actions broken off */
+    uint32_t dodges;              /* jumps and ducks begun */
     uint32_t nodes;               /* expanded */
     double without_plan; /* s: the plan was at its end and not a stand, or in conflict with another's */
 } ff_plan_counts;

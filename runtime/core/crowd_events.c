@@ -7,6 +7,7 @@
 #define WAYPOINT_WIDTH 0.3 /* m, half of the way on which the next one is seen (B.7) */
 #define FORESEEN 2.0       /* s, in which obstacles on paths are looked for */
 #define IMMINENT 1.0       /* s, the same of what is not to be foreseen (B.8) */
+#define DANGER 1.5 /* s: the feet of a jump leave the ground after 0.5 s, once the step before is over */
 #define SURPRISE_REACH 6.0 /* m, within which that is seen */
 
 static void call_for(ff_stepper *s, ff_plan_event event, double time)
@@ -45,28 +46,24 @@ static bool crossed(const ff_crowd *crowd, uint32_t slot, double time)
     return false;
 }
 
-static bool met_on_path(const ff_crowd *crowd, const ff_stepper *s, double time)
+/* s until an obstacle of the kind is met, within what is foreseen; INFINITY: it is not. */
+static double until_met(const ff_crowd *crowd, const ff_stepper *s, ff_obstacle_kind kind, double time)
 {
+    double least = INFINITY, when;
     for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
         const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
-        if (obstacle->kind == FF_OBSTACLE_PATH &&
-            ff_track_meets(&s->track, time, FORESEEN, &obstacle->shape, obstacle->velocity, 0.0, NULL))
-            return true;
+        if (obstacle->kind == (uint32_t)kind &&
+            ff_track_meets(&s->track, time, FORESEEN, &obstacle->shape, obstacle->velocity, 0.0, &when))
+            least = ff_min(least, when - time);
     }
-    return false;
+    return least;
 }
 
-/* Something moved by the caller, or somebody who goes by velocity, is about to be met. */
-static bool surprised(const ff_crowd *crowd, uint32_t slot, double time)
+/* Somebody who goes by velocity is about to be met. */
+static bool met_by_velocity(const ff_crowd *crowd, uint32_t slot, double time)
 {
     const ff_stepper *s = &crowd->steppers[slot];
     ff_vec2 here = crowd->bodies[slot].position;
-    for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
-        const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
-        if (obstacle->kind == FF_OBSTACLE_FREE &&
-            ff_track_meets(&s->track, time, IMMINENT, &obstacle->shape, obstacle->velocity, 0.0, NULL))
-            return true;
-    }
     if (crowd->stepper_count == crowd->agent_count) return false;
     for (uint32_t i = 0; i < crowd->grid.count; ++i) {
         const ff_seen *other = &crowd->grid.seen[i];
@@ -91,8 +88,11 @@ void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
         call_for(s, FF_EVENT_GOAL, time);
     if (!arrived && (done || time - s->created >= def->expiry || s->consumed >= def->expiry_actions))
         call_for(s, FF_EVENT_EXPIRY, time);
-    if (crossed(crowd, slot, time) || met_on_path(crowd, s, time)) call_for(s, FF_EVENT_NEARBY, time);
-    if (surprised(crowd, slot, time)) {
+    double on_path = until_met(crowd, s, FF_OBSTACLE_PATH, time),
+           moved = until_met(crowd, s, FF_OBSTACLE_FREE, time);
+    if (crossed(crowd, slot, time) || on_path < INFINITY) call_for(s, FF_EVENT_NEARBY, time);
+    if (ff_min(on_path, moved) <= DANGER) call_for(s, FF_EVENT_DANGER, time);
+    if (moved <= IMMINENT || met_by_velocity(crowd, slot, time)) {
         if (!(s->pending >> FF_EVENT_SURPRISE & 1u)) s->surprised = time;
         call_for(s, FF_EVENT_SURPRISE, time);
     }

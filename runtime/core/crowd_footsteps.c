@@ -2,6 +2,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/crowd_state.h"
+#include "runtime/core/plan_set.h"
 #include "runtime/core/plan_solids.h"
 
 #include <stdlib.h>
@@ -53,7 +54,9 @@ static bool take_lanes(ff_footsteps *f, const ff_crowd_def *def, ff_error *error
         lane->tracks = ff_calloc(def->max_agents, sizeof *lane->tracks);
         lane->walkers = ff_calloc(def->max_agents, sizeof *lane->walkers);
         lane->shapes = ff_calloc(2 * (size_t)def->max_obstacles + 1, sizeof *lane->shapes);
-        if (!lane->tracks || !lane->walkers || !lane->shapes) return false;
+        lane->movers = ff_calloc((size_t)def->max_obstacles + 1, sizeof *lane->movers);
+        lane->paths = ff_calloc((size_t)def->max_obstacles + 1, sizeof *lane->paths);
+        if (!lane->tracks || !lane->walkers || !lane->shapes || !lane->movers || !lane->paths) return false;
         if (ff_plan_scratch_create(f->actions, def->footsteps.nodes, &lane->scratch, error) != FF_OK)
             return false;
     }
@@ -95,6 +98,8 @@ void ff_footsteps_destroy(ff_footsteps *f)
         free(f->lane[i].tracks);
         free(f->lane[i].walkers);
         free(f->lane[i].shapes);
+        free(f->lane[i].movers);
+        free(f->lane[i].paths);
     }
     free(f->jobs);
     free(f->order);
@@ -225,6 +230,7 @@ bool ff_stepper_arrived(const ff_crowd *crowd, uint32_t slot)
 static void next_step(const ff_footsteps *f, ff_stepper *s)
 {
     const ff_plan_step *step = &s->plan.steps[++s->at];
+    s->counts.dodges += !step->hold && ff_action_is_platform(ff_action_set_record(f->actions, step->action));
     ff_play_order order = ff_order_of(f, step);
     if (step->hold) order.action = FF_PLAY_STAND;
     ff_play_next(f->play, &s->play, &order);

@@ -81,9 +81,11 @@ enum { FF_PLAN_LANES = 8 }; /* searches that may run at once */
 
 typedef struct ff_plan_lane {
     ff_plan_scratch *scratch;
-    const ff_track **tracks; /* [max_agents] */
-    ff_walker *walkers;      /* [max_agents] */
-    ff_shape *shapes;        /* [max_obstacles * 2] */
+    const ff_track **tracks;   /* [max_agents] */
+    ff_walker *walkers;        /* [max_agents] */
+    ff_shape *shapes;          /* [max_obstacles * 2] */
+    ff_mover *movers;          /* [max_obstacles] */
+    ff_path_point (*paths)[2]; /* [max_obstacles] */
 } ff_plan_lane;
 
 /* What all of them share. */
@@ -175,6 +177,8 @@ void ff_stepper_enter(struct ff_crowd *crowd, uint32_t slot, const ff_plan_job *
 
 /* crowd_obstacles.c. Add one as it was saved; NULL, or what is wrong with it. */
 const char *ff_obstacle_restore(struct ff_crowd *crowd, const ff_crowd_obstacle *obstacle);
+/* One that the caller moves, and that can be jumped or ducked. */
+bool ff_obstacle_is_evaded(const ff_crowd_obstacle *obstacle);
 void ff_obstacles_step(struct ff_crowd *crowd); /* velocities and places for this step */
 
 #endif

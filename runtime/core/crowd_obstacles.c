@@ -208,6 +208,12 @@ static ff_vec2 on_path(const ff_crowd_obstacle *obstacle, double time)
     return ff_add2(obstacle->home, ff_mover_at(&mover, time));
 }
 
+bool ff_obstacle_is_evaded(const ff_crowd_obstacle *obstacle)
+{
+    return obstacle->kind == FF_OBSTACLE_FREE && ff_shape_is_evaded(&obstacle->shape) &&
+           ff_dot2(obstacle->velocity, obstacle->velocity) > 0.0;
+}
+
 void ff_obstacles_step(ff_crowd *crowd)
 {
     double time = ff_crowd_time(crowd), step = crowd->def.step;

@@ -13,15 +13,19 @@
 #define GOAL_REACH 0.7     /* of the goal's tolerance, that a plan reaches into it */
 #define WAYPOINT_REACH 0.6 /* m */
 #define IMMINENT 1.0       /* s */
+#define BELIEVED 5.0       /* s, for which what is to be jumped or ducked is believed to go on */
+#define EVADE_COST                                                                                           \
+    20.0 /* J/kg, of a jump or a duck in danger: dearer than a few steps, cheaper than waiting for seconds */
 
 enum { AT_ONCE = 8 };        /* searches between two looks at how many nodes there were */
 enum { FIRST, SOON, LATER }; /* urgency */
+enum { URGENT = 1 << FF_EVENT_SURPRISE | 1 << FF_EVENT_DANGER };
 
 /* ------------------------------------------------------------------------------------------------- whose turn */
 
 static uint32_t urgency_of(const ff_stepper *s, double time)
 {
-    if (s->pending >> FF_EVENT_SURPRISE & 1u) return FIRST;
+    if (s->pending & URGENT) return FIRST;
     if (s->counts.plans == 0) return SOON;
     uint32_t stop = s->plan.stop < s->plan.count ? s->plan.stop : s->plan.count - 1;
     bool ends = s->plan.steps[stop].start - time < CLOSE_TO_STOP && s->at + 1 < s->plan.count;
@@ -113,7 +117,7 @@ static void see_obstacles(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *la
     world->shapes = lane->shapes;
     for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
         const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
-        if (obstacle->kind != FF_OBSTACLE_FREE) continue;
+        if (obstacle->kind != FF_OBSTACLE_FREE || ff_obstacle_is_evaded(obstacle)) continue;
         double far = ff_length2(ff_sub2(obstacle->shape.centre, here)) - obstacle->shape.half_length -
                      obstacle->shape.half_width - obstacle->shape.radius;
         if (far > SURPRISE_VIEW) continue;
@@ -125,6 +129,26 @@ static void see_obstacles(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *la
     }
 }
 
+/* Something low enough to jump, or high enough to duck, is to be got past while it passes: where it will be when counts. */
+static void see_evaded(const ff_crowd *crowd, ff_plan_lane *lane, ff_plan_world *world)
+{
+    const ff_footsteps *f = crowd->footsteps;
+    double time = ff_crowd_time(crowd);
+    world->movers = lane->movers;
+    for (uint32_t i = 0; i < f->mover_count; ++i)
+        lane->movers[i] = f->movers[i];
+    for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
+        const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
+        if (!ff_obstacle_is_evaded(obstacle)) continue;
+        ff_path_point *path = lane->paths[i];
+        path[0] = (ff_path_point){0.0, obstacle->shape.centre};
+        path[1] = (ff_path_point){BELIEVED, ff_madd2(path[0].at, obstacle->velocity, BELIEVED)};
+        ff_mover *mover = &lane->movers[world->mover_count++];
+        *mover = (ff_mover){.shape = obstacle->shape, .path = path, .count = 2, .start = time};
+        mover->shape.centre = ff_v2(0.0, 0.0);
+    }
+}
+
 static ff_plan_world world_of(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane)
 {
     const ff_footsteps *f = crowd->footsteps;
@@ -132,6 +156,7 @@ static ff_plan_world world_of(const ff_crowd *crowd, uint32_t slot, ff_plan_lane
     see_steppers(crowd, slot, lane, &world);
     see_walkers(crowd, slot, lane, &world);
     see_obstacles(crowd, slot, lane, &world);
+    see_evaded(crowd, lane, &world);
     return world;
 }
 
@@ -185,15 +210,20 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
     ff_plan_world world = world_of(crowd, job->slot, lane);
     job->target = ff_stepper_target(crowd, job->slot);
     ff_plan_goal goal = goal_of(crowd, job->slot, job->target);
+    ff_plan_options options = f->options;
+    if (s->pending >> FF_EVENT_DANGER & 1u) {
+        options.reactive = 1;
+        options.reactive_cost = EVADE_COST;
+    }
     ff_plan_result result =
-        ff_plan_search(f->actions, &world, &current, time, &goal, &f->options, lane->scratch, &job->plan);
+        ff_plan_search(f->actions, &world, &current, time, &goal, &options, lane->scratch, &job->plan);
     job->counts.searches = 1;
     job->counts.nodes = result.expanded;
     if (result.outcome == FF_PLAN_NONE)
         ++job->counts.failed;
     else
         finish_job(crowd, job, time);
-    if (job->kind == FF_JOB_PLAN && s->pending >> FF_EVENT_SURPRISE & 1u &&
+    if (job->kind == FF_JOB_PLAN && (s->pending & URGENT) &&
         (!job->good || meets_shapes(&world, &job->track, time)))
         ff_stepper_react(crowd, job->slot, &world, time, job);
 }
@@ -240,6 +270,7 @@ static void add_counts(ff_plan_counts *sum, const ff_plan_counts *add)
     sum->failed += add->failed;
     sum->conflicting += add->conflicting;
     sum->reactions += add->reactions;
+    sum->dodges += add->dodges;
     sum->nodes += add->nodes;
 }
 
@@ -256,7 +287,7 @@ static void put_in_force(ff_crowd *crowd, ff_plan_job *job, double time)
     if (!job->good) {
         /* One that came second may try again at once; what was not found will not be there so soon. */
         s->retry = was_good ? time : time + RETRY;
-        if (s->pending >> FF_EVENT_SURPRISE & 1u) s->retry = time;
+        if (s->pending & URGENT) s->retry = time;
         return;
     }
     if (job->kind == FF_JOB_ENTER)

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #define LATEST 0.6 /* of an action: later on it is finished */
+#define HARDLY_BEGUN 0.25
 #define LOOK 1.5   /* s ahead */
 #define SUDDEN 0.4 /* s: what is met so soon in spite of everything lets one stop dead */
 #define MOST 48    /* ways that are tried */
@@ -64,13 +65,19 @@ static void stop_after(const ff_action_set *set, const ff_plan_step *step, const
     out->stop = out->count - 1;
 }
 
-static outcome judge(const ff_plan_world *world, double time, const ff_plan_job *job)
+static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double time, const ff_plan_job *job)
 {
     outcome out = {INFINITY, INFINITY, INFINITY, job->plan.steps[job->plan.count - 1].start - time};
     double when;
     for (uint32_t i = 0; i < world->shape_count; ++i)
         if (ff_track_meets(&job->track, time, LOOK, &world->shapes[i], ff_v2(0.0, 0.0), 0.0, &when))
             out.surprise = ff_min(out.surprise, when - time);
+    for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
+        const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
+        if ((obstacle->kind == FF_OBSTACLE_PATH || ff_obstacle_is_evaded(obstacle)) &&
+            ff_track_meets(&job->track, time, LOOK, &obstacle->shape, obstacle->velocity, 0.0, &when))
+            out.surprise = ff_min(out.surprise, when - time);
+    }
     for (uint32_t i = 0; i < world->walker_count; ++i) {
         const ff_walker *walker = &world->walkers[i];
         ff_shape disc = {.centre = walker->position, .radius = walker->radius, .high = 2.0};
@@ -108,7 +115,7 @@ static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from
         job.slot = w->slot;
         stop_after(set, step, from, stands ? NULL : &set->stops[a->first_stop + k], &job.plan);
         ff_plan_track(set, &job.plan, w->time, &job.track);
-        outcome result = judge(w->world, w->time, &job);
+        outcome result = judge(w->crowd, w->world, w->time, &job);
         if (w->found && !better(&result, &w->outcome)) continue;
         w->found = true;
         w->outcome = result;
@@ -126,7 +133,7 @@ static void try_freezing(ways *w)
     job.slot = w->slot;
     ff_plan_stand(w->crowd->footsteps->actions, body->position, body->heading, w->time, &job.plan);
     ff_plan_track(w->crowd->footsteps->actions, &job.plan, w->time, &job.track);
-    outcome result = judge(w->world, w->time, &job);
+    outcome result = judge(w->crowd, w->world, w->time, &job);
     if (!better(&result, &w->outcome)) return;
     w->outcome = result;
     w->best->plan = job.plan;
@@ -157,7 +164,7 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
     /* What the plan in force, or the one just found, would meet. */
     ff_plan_job keep = {
         .slot = slot, .plan = job->good ? job->plan : s->plan, .track = job->good ? job->track : s->track};
-    w.outcome = judge(world, time, &keep);
+    w.outcome = judge(crowd, world, time, &keep);
     w.found = true;
     if (w.outcome.surprise == INFINITY && w.outcome.walkers == INFINITY) return false;
     outcome old = w.outcome;
@@ -165,7 +172,11 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
     if (now->hold) return take_best(crowd, slot, &w, &old);
     double done = (time - now->start) / (double)set->actions[now->action].duration;
     const ff_set_action *before = &set->actions[from->action];
-    for (uint32_t k = 0; k < before->step_count && done < LATEST; ++k) {
+    /* In danger a step may become a leap, as long as it has hardly begun. */
+    bool leaps = s->pending >> FF_EVENT_DANGER & 1u && done < HARDLY_BEGUN;
+    for (uint32_t n = 0, count = leaps ? before->next_count : before->step_count; n < count && done < LATEST;
+         ++n) {
+        uint32_t k = leaps ? (n + before->step_count) % count : n; /* leaps first */
         const ff_set_next *next = &set->next[before->first_next + k];
         const ff_set_action *b = &set->actions[next->action];
         if (next->action == now->action || b->support != set->actions[now->action].support) continue;

@@ -160,6 +160,9 @@ typedef struct ff_shape {
     uint32_t reserved;
 } ff_shape;
 
+/* Can it be jumped over or ducked under, if it moves? */
+bool ff_shape_is_evaded(const ff_shape *shape);
+
 /* A place on the way of an obstacle that moves on a known path. Between two it moves straight and evenly; it waits at the
  * last one, or begins again when the path goes round. */
 typedef struct ff_path_point {
@@ -248,8 +251,10 @@ typedef struct ff_plan_options {
     double wait;           /* price of waiting, in units of e_s; default 3 */
     double proximity_cost; /* J/(kg s) within proximity of somebody; default 0 */
     double proximity;      /* m; default 0.3 */
-    double view;           /* m, how far away those are now who can be met later; default 20 */
-    uint32_t view_count;   /* how many of them, the likeliest; default and at most 128 */
+    double
+        reactive_cost; /* J/kg that a jump or a duck costs on top of its energy, where they are allowed; default 150 */
+    double view;         /* m, how far away those are now who can be met later; default 20 */
+    uint32_t view_count; /* how many of them, the likeliest; default and at most 128 */
     uint8_t lazy;  /* actions are tested when they are looked at, not when they are thought of; default 1 */
     uint8_t safe;  /* plans end in a checked stop; default 1. 0: as in the paper */
     uint8_t table; /* the pack's reach table guides the search; default 1 */

@@ -1,7 +1,7 @@
 /* What a pack's record says to whoever plans with it: can it be walked, of which class is its end, what does it cost. */
 #include "runtime/core/plan_set.h"
 
-static const float RUN_FACTOR = 1.3f, PLATFORM_COST = 150.0f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
+static const float RUN_FACTOR = 1.3f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
 static const double CROSS = -20.0 * FF_DEG;
 static const float FLAT = 0.05f, LEVEL = 0.03f; /* m: heights and rises that pass for level ground */
 
@@ -33,7 +33,7 @@ float ff_action_cost(const ff_pack_action *r, float pace)
     float cost = pace == 1.0f ? r->energy : standing / pace + moving * pace;
     if (r->mode == FF_MODE_RUN) cost *= RUN_FACTOR;
     if (!(r->flags & FF_ACTION_ALPHA_UNDEFINED) && (double)r->alpha < CROSS) cost *= CROSS_FACTOR;
-    if (ff_action_is_platform(r)) cost += PLATFORM_COST;
+    if (ff_action_is_platform(r)) cost += FF_PLATFORM_COST;
     float lost = r->duration / pace * (1.0f - pace * r->speed / FF_WALK_SPEED); /* s */
     if (lost > 0.0f) cost += lost * (float)((FF_PLAN_WAIT - 1.0) * FF_E_S);
     return cost;

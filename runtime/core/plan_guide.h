@@ -63,7 +63,7 @@ static inline float ff_guide_to(const ff_guide *guide, const ff_guide_goal *goal
     float distance = sqrtf(a * a + b * b), left = distance - guide->radius;
     if (!(left > 0.0f) && !goal->stand) return goal->beyond;
     float cost = left > 0.0f ? left * guide->rate : 0.0f;
-    if (guide->reach) {
+    if (guide->reach && last->reach != FF_REACH_NONE) {
         float reach = ff_guide_reach(guide, a, b, distance, cosine, sine, last) - goal->nearer;
         cost = reach > cost ? reach : cost;
     }

@@ -168,6 +168,15 @@ static void search_on(ff_search *s)
     }
 }
 
+/* Does the plan go on with a jump or a duck? */
+static bool is_reactive(const ff_action_set *set, const ff_plan *plan, uint32_t step)
+{
+    for (uint32_t i = step; i < plan->count; ++i)
+        if (!plan->steps[i].hold && (set->actions[plan->steps[i].action].flags & FF_SET_REACTIVE))
+            return true;
+    return false;
+}
+
 ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *world, const ff_plan *current,
                               double time, const ff_plan_goal *goal, const ff_plan_options *options,
                               ff_plan_scratch *scratch, ff_plan *out)
@@ -188,6 +197,7 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
     const ff_plan_step *doing = &current->steps[step];
     double end = doing->hold ? ff_max(time, doing->start) : ff_plan_step_end(current, step);
     ff_sight_open(set, world, options, doing->anchor, end, &scratch->sight);
+    if (is_reactive(set, current, step)) scratch->sight.reactive = 1;
     s.guide = ff_guide_make(set, world->solids, goal, ff_plan_root_at(set, current, end).position,
                             doing->anchor, options->table);
     s.inflation = (float)ff_max(options->inflation, 1.0);
@@ -222,6 +232,7 @@ ff_plan_options ff_plan_options_default(void)
                              .stand_margin = 0.03,
                              .wait = FF_PLAN_WAIT,
                              .proximity = 0.3,
+                             .reactive_cost = (double)FF_PLATFORM_COST,
                              .view = 20.0,
                              .view_count = FF_SIGHT_MAX,
                              .lazy = 1,

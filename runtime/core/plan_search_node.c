@@ -28,6 +28,7 @@ ff_search_node ff_search_child(const ff_search *s, uint32_t parent, uint16_t k)
     const ff_set_next *next = &s->set->next[s->set->actions[p->action].first_next + k];
     const ff_set_action *b = &s->set->actions[next->action];
     const float *anchor = next->other ? p->other : p->at;
+    float more = b->flags & FF_SET_REACTIVE ? (float)s->options.reactive_cost - FF_PLATFORM_COST : 0.0f;
     return (ff_search_node){.at = {anchor[0] + p->cosine * b->land[0] - p->sine * b->land[1],
                                    anchor[1] + p->sine * b->land[0] + p->cosine * b->land[1]},
                             .other = {anchor[0], anchor[1]},
@@ -35,7 +36,7 @@ ff_search_node ff_search_child(const ff_search *s, uint32_t parent, uint16_t k)
                             .sine = p->sine * b->cosine + p->cosine * b->sine,
                             .heading = p->heading + b->theta,
                             .time = p->time + b->duration,
-                            .g = p->g + next->cost,
+                            .g = p->g + next->cost + more,
                             .parent = parent,
                             .action = next->action,
                             .next = k,

@@ -31,8 +31,8 @@ static int kind_of(const ff_pack_action *r)
 {
     bool from = (r->flags & FF_ACTION_FROM_STANDING) != 0, to = (r->flags & FF_ACTION_TO_STANDING) != 0;
     if (r->mode == FF_MODE_IDLE) return 1;
-    if (r->mode == FF_MODE_JUMP) return 2;
-    if (r->mode == FF_MODE_CROUCH) return 3;
+    if (r->mode == FF_MODE_JUMP) return from ? (r->root_end[0] - r->root_start[0] > 0.4f ? 6 : 2) : 4;
+    if (r->mode == FF_MODE_CROUCH) return from ? 3 : 5;
     if (!from && !to) return 0;
     double turn = fabs((double)r->theta) / FF_DEG, alpha = fabs((double)r->alpha) / FF_DEG;
     int turned = turn < 12.0 ? 0 : (turn < 32.0 ? 1 : (turn < 65.0 ? 2 : (turn < 120.0 ? 3 : 4)));
@@ -211,7 +211,9 @@ static uint32_t choose_stand(const selection *s)
     double most = -INFINITY;
     for (uint32_t i = 0; i < s->count; ++i) {
         const ff_pack_action *r = &s->pack->actions[i];
-        if (!s->usable[i] || !(r->flags & FF_ACTION_TO_STANDING) || (r->flags & FF_ACTION_WHOLE)) continue;
+        if (!s->usable[i] || !(r->flags & FF_ACTION_TO_STANDING) || (r->flags & FF_ACTION_WHOLE) ||
+            ff_action_is_platform(r))
+            continue;
         double worth = (double)r->successor_count * (r->mode == FF_MODE_IDLE ? 2.0 : 1.0) -
                        100.0 * fabs((double)r->theta) - 50.0 * (double)r->speed;
         if (worth > most) {

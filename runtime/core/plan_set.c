@@ -216,10 +216,13 @@ static void measure_next(ff_action_set *set)
             float eb = a->sine * b->root_end[0] + a->cosine * b->root_end[1] - rb;
             float ca = a->cosine * b->circle[0] - a->sine * b->circle[1] - ra;
             float cb = a->sine * b->circle[0] + a->cosine * b->circle[1] - rb;
-            a->next_longest = fmaxf(a->next_longest, b->duration);
             float moved = sqrtf(ea * ea + eb * eb);
             if (moved > 1e-3f) set->rate = fminf(set->rate, next->cost / moved);
-            a->next_reach = fmaxf(a->next_reach, sqrtf(ca * ca + cb * cb) + b->circle[2] + next->jump);
+            float reach = sqrtf(ca * ca + cb * cb) + b->circle[2] + next->jump;
+            for (int all = k < a->step_count ? 0 : 1; all < 2; ++all) {
+                a->next_longest[all] = fmaxf(a->next_longest[all], b->duration);
+                a->next_reach[all] = fmaxf(a->next_reach[all], reach);
+            }
         }
     }
     set->rate *= 0.9999f; /* sums of floats */

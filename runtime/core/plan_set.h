@@ -10,6 +10,7 @@
 /* m/s: who is slower loses time, which has a price. As fast as adults walk who are at ease; the cheapest is 1.33. */
 #define FF_WALK_SPEED 1.45f
 
+#define FF_PLATFORM_COST 150.0f /* J/kg, of a jump or a duck on top of its energy (algorithms B.2) */
 #define FF_ACTION_SHORTEST 0.2f /* s, of an action that can be planned with */
 #define FF_ACTION_LONGEST 3.0f
 
@@ -32,10 +33,11 @@ typedef struct ff_set_action {
     float land[2];        /* m, in S0 */
     float root_end[2];    /* m */
     float theta, cosine, sine;
-    float circle[3];            /* a, b, radius: in S0, holds all colliders at all times */
-    float next_longest;         /* s, of any successor */
-    float next_reach;           /* m: from the root at the end, how far any collider of any successor gets */
-    uint32_t first_knot, knots; /* into samples, evenly from start to end */
+    float circle[3]; /* a, b, radius: in S0, holds all colliders at all times */
+    /* Of the successors: [0] of steps, [1] of jumps and ducks as well. */
+    float next_longest[2];                       /* s */
+    float next_reach[2];                         /* m: from the root at the end, how far any collider gets */
+    uint32_t first_knot, knots;                  /* into samples, evenly from start to end */
     uint32_t first_next, next_count, step_count; /* into next; the first step_count are no jumps and ducks */
     uint32_t first_stop, stop_count;             /* into stops */
     uint16_t flags;

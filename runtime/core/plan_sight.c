@@ -100,6 +100,14 @@ static void find_rooms(ff_sight *s)
                 INFINITY;
 }
 
+#define JUMPED 0.45 /* m: no higher is what can be jumped over ... */
+#define DUCKED 1.0  /* ... and no lower what can be ducked under */
+
+bool ff_shape_is_evaded(const ff_shape *shape)
+{
+    return shape->high <= JUMPED || shape->low >= DUCKED;
+}
+
 /* Where a mover is at a time. */
 ff_vec2 ff_mover_at(const ff_mover *mover, double time)
 {
@@ -140,6 +148,7 @@ static void see_movers(ff_sight *s, const ff_plan_world *world)
         m->grow = 0.0;
         m->known = FF_TRACK_KNOTS_MAX;
         m->gone = 0;
+        m->evaded = ff_shape_is_evaded(&shape);
         double time = (double)s->first_knot * FF_TRACK_STEP;
         for (uint32_t k = 0; k < FF_TRACK_KNOTS_MAX; ++k)
             m->at[k] = ff_add2(centre, ff_mover_at(from, time + k * FF_TRACK_STEP));
@@ -164,6 +173,7 @@ static void see_walkers(ff_sight *s, const ff_plan_world *world, double view)
         m->grow = grow * FF_TRACK_STEP;
         m->known = (uint32_t)(believed / FF_TRACK_STEP);
         m->gone = 1;
+        m->evaded = 0;
         for (uint32_t k = 0; k <= m->known; ++k) {
             m->at[k] = ff_madd2(at, from->velocity, k * FF_TRACK_STEP - s->lead);
             m->slack[k] = 0.0f;
@@ -184,6 +194,7 @@ void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const f
     out->stand_margin = (float)(options->margin + options->stand_margin);
     out->limits = ff_limits_of(out->margin);
     out->stand_limits = ff_limits_of(out->stand_margin);
+    out->reactive = options->reactive != 0;
     out->cost = (float)options->proximity_cost;
     out->cost_within = (float)options->proximity;
     out->count = out->mover_count = out->shape_count = 0;

@@ -43,6 +43,7 @@ typedef struct ff_sight_mover {
     float slack[FF_TRACK_KNOTS_MAX]; /* m, by which it leaves the straight line between knots k and k + 1 */
     uint32_t known;                  /* knots; after them it stands, or is gone */
     uint32_t gone;
+    uint32_t evaded; /* 1: who stands can jump or duck it */
 } ff_sight_mover;
 
 typedef struct ff_sight {
@@ -55,6 +56,7 @@ typedef struct ff_sight {
     float margin, stand_margin;
     ff_limits limits, stand_limits;
     uint32_t count, mover_count, shape_count;
+    uint32_t reactive; /* 1: jumps and ducks are thought of, too */
     ff_sight_track seen[FF_SIGHT_MAX];
     uint32_t window_count; /* of rooms; after them all stands */
     ff_sight_rooms rooms[FF_SIGHT_CHUNKS];

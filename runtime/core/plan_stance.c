@@ -153,8 +153,8 @@ void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine
         place(set, a, st->other, begin_cosine, begin_sine, a->duration - since, &st->tail);
     st->moved = furthest(&st->end, &st->tail);
     float ra = st->end.a[FF_COLLIDER_ROOT], rb = st->end.b[FF_COLLIDER_ROOT];
-    float reach = a->next_reach + sight->margin + st->moved;
-    int32_t last = st->knot + (int32_t)(a->next_longest / (float)FF_TRACK_STEP) + 1;
+    float reach = a->next_reach[sight->reactive] + sight->margin + st->moved;
+    int32_t last = st->knot + (int32_t)(a->next_longest[sight->reactive] / (float)FF_TRACK_STEP) + 1;
     st->near_count = list_near(sight, ff_sight_chunk(sight, st->knot), ff_sight_chunk(sight, last), ra, rb,
                                reach, st->near);
     st->mover_count = 0;
@@ -430,6 +430,14 @@ static bool stands_in_way(const ff_sight_track *seen, const ff_stance *st, int32
     return ever && meets(seen, k, &st->end, &st->end, radius, margin, limits);
 }
 
+/* Up to which knot standing for ever has to be free of a mover: what can be jumped or ducked is, when it comes near. Else nobody
+ * would go where a beam passes some day. */
+static int32_t stands_until(const ff_sight_mover *mover, const ff_stance *st, int32_t last)
+{
+    const int32_t ready = (int32_t)(2.0 / FF_TRACK_STEP);
+    return mover->evaded && st->knot + ready < last ? st->knot + ready : last;
+}
+
 bool ff_stance_waits(ff_sight *sight, const ff_stance *st, float seconds)
 {
     bool ever = !(seconds < 60.0f);
@@ -453,7 +461,7 @@ bool ff_stance_waits(ff_sight *sight, const ff_stance *st, float seconds)
                          (double)sight->margin))
             return false;
     for (uint32_t i = 0; i < sight->mover_count; ++i)
-        for (int32_t k = st->knot; k < last; ++k)
+        for (int32_t k = st->knot; k < (ever ? stands_until(&sight->mover[i], st, last) : last); ++k)
             if (meets_mover(&sight->mover[i], k, k == st->knot ? &st->tail : &st->end, &st->end,
                             (double)sight->margin))
                 return false;
