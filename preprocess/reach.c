@@ -285,6 +285,8 @@ static bool begin(work *w, const ff_pack *pack)
     for (uint32_t i = 0; i < total; ++i)
         w->usable[i] = ff_action_is_usable(&pack->actions[i]);
     ff_set_select(pack, FF_ACTIONS_DEFAULT, w->usable, w->chosen, &stand);
+    for (uint32_t i = 0; i < total; ++i) /* what is made up for danger leads to nothing that steps do not */
+        w->chosen[i] = w->chosen[i] && !ff_action_is_made_up(&pack->actions[i]);
     for (uint32_t i = 0; i < total; ++i)
         w->place[i] = w->chosen[i] ? w->ways.count++ : UINT32_MAX;
     size_t count = w->ways.count;

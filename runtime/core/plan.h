@@ -22,7 +22,7 @@
 /* The actions that plans are made of, prepared from a pack. Immutable; shared by all agents and threads. */
 typedef struct ff_action_set ff_action_set;
 
-/* At most cap actions of the pack (0: the default, FF_ACTIONS_DEFAULT), the most useful ones, each with its mirror image
+/* At most cap actions of the pack (0: the default, FF_ACTIONS_DEFAULT) and a few made-up jumps and ducks, the most useful ones, each with its mirror image
  * where the pack has one. Fails with FF_ERR_NO_DATA when the pack has no way to stand, to start and to stop. The pack must
  * outlive the set. */
 enum { FF_ACTIONS_DEFAULT = 200 };

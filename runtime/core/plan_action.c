@@ -10,6 +10,11 @@ bool ff_action_is_platform(const ff_pack_action *r)
     return r->mode == FF_MODE_JUMP || r->mode == FF_MODE_CROUCH || r->mode == FF_MODE_CLIMB;
 }
 
+bool ff_action_is_made_up(const ff_pack_action *r)
+{
+    return ff_action_is_platform(r) && (r->flags & FF_ACTION_DERIVED);
+}
+
 bool ff_action_is_usable(const ff_pack_action *r)
 {
     return r->mode != FF_MODE_CLIMB && fabsf(r->height) < FLAT && fabsf(r->rise) < LEVEL &&

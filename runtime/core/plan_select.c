@@ -15,6 +15,7 @@ static const uint32_t RUN_SHARE = 12; /* one in so many may be a run */
 static const double
     ASIDE = 45.0 * FF_DEG,
     SHORT = 0.2; /* of a step: further to the side, or shorter (m), and it does not count as going ahead */
+static const uint32_t ROOM_FOR_MADE_UP = 40;
 
 typedef struct selection {
     const ff_pack *pack;
@@ -31,8 +32,8 @@ static int kind_of(const ff_pack_action *r)
 {
     bool from = (r->flags & FF_ACTION_FROM_STANDING) != 0, to = (r->flags & FF_ACTION_TO_STANDING) != 0;
     if (r->mode == FF_MODE_IDLE) return 1;
-    if (r->mode == FF_MODE_JUMP) return from ? (r->root_end[0] - r->root_start[0] > 0.4f ? 6 : 2) : 4;
-    if (r->mode == FF_MODE_CROUCH) return from ? 3 : 5;
+    if (r->mode == FF_MODE_JUMP) return 2;
+    if (r->mode == FF_MODE_CROUCH) return 3;
     if (!from && !to) return 0;
     double turn = fabs((double)r->theta) / FF_DEG, alpha = fabs((double)r->alpha) / FF_DEG;
     int turned = turn < 12.0 ? 0 : (turn < 32.0 ? 1 : (turn < 65.0 ? 2 : (turn < 120.0 ? 3 : 4)));
@@ -89,7 +90,7 @@ static void count_joins(selection *s, uint32_t taken)
 static void take(selection *s, uint32_t index)
 {
     for (int side = 0; side < 2; ++side, index = s->twin[index]) {
-        if (s->taken[index] || s->chosen == s->cap) continue;
+        if (s->taken[index] || s->chosen >= s->cap) continue;
         s->taken[index] = true;
         ++s->chosen;
         s->runs += s->pack->actions[index].mode == FF_MODE_RUN;
@@ -106,7 +107,9 @@ static uint32_t best_of_kind(const selection *s, const uint32_t *links, int kind
     for (uint32_t i = 0; i < s->count; ++i) {
         const ff_pack_action *r = &s->pack->actions[i];
         bool ordinary = kind != 0 || r->mode == FF_MODE_WALK_SHORT || r->mode == FF_MODE_WALK_LONG;
-        if (s->usable[i] && ordinary && kind_of(r) == kind && (best == s->count || links[i] > links[best]))
+        bool made_up = ff_action_is_made_up(r);
+        if (s->usable[i] && !made_up && ordinary && kind_of(r) == kind &&
+            (best == s->count || links[i] > links[best]))
             best = i;
     }
     return best;
@@ -122,9 +125,12 @@ static void take_needed(selection *s)
     if (!links) return;
     for (uint32_t i = 0; i < s->count; ++i) {
         const ff_pack_action *r = &s->pack->actions[i];
-        links[i] += r->successor_count;
-        for (uint32_t k = 0; k < r->successor_count; ++k)
-            ++links[s->pack->successors[r->first_successor + k].action];
+        for (uint32_t k = 0; k < r->successor_count; ++k) {
+            uint32_t next = s->pack->successors[r->first_successor + k].action;
+            if (ff_action_is_made_up(r) || ff_action_is_made_up(&s->pack->actions[next])) continue;
+            ++links[i];
+            ++links[next];
+        }
     }
     bool done[KINDS] = {false};
     for (int round = 0; round < FIRST + KINDS; ++round) {
@@ -140,7 +146,8 @@ static void take_needed(selection *s)
 static bool may_take(const selection *s, uint32_t index)
 {
     const ff_pack_action *r = &s->pack->actions[index];
-    if (!s->usable[index] || s->taken[index] || r->mode == FF_MODE_IDLE || s->away[index] < ALIKE)
+    if (!s->usable[index] || s->taken[index] || r->mode == FF_MODE_IDLE || ff_action_is_made_up(r) ||
+        s->away[index] < ALIKE)
         return false;
     return r->mode != FF_MODE_RUN || (s->runs + 1) * RUN_SHARE <= s->cap;
 }
@@ -178,6 +185,17 @@ static void take_rest(selection *s)
     }
 }
 
+/* Jumps and ducks that were made up for danger come on top: they take no step's place, and no search looks at them otherwise. */
+static void take_made_up(selection *s)
+{
+    for (uint32_t i = 0; i < s->count && s->cap >= ROOM_FOR_MADE_UP; ++i) {
+        if (!s->usable[i] || !ff_action_is_made_up(&s->pack->actions[i])) continue;
+        s->taken[i] = true;
+        ++s->chosen;
+        count_joins(s, i);
+    }
+}
+
 /* Drop what leads nowhere or what nothing leads to, until all have both. */
 static void prune(selection *s, uint32_t stand)
 {
@@ -212,7 +230,7 @@ static uint32_t choose_stand(const selection *s)
     for (uint32_t i = 0; i < s->count; ++i) {
         const ff_pack_action *r = &s->pack->actions[i];
         if (!s->usable[i] || !(r->flags & FF_ACTION_TO_STANDING) || (r->flags & FF_ACTION_WHOLE) ||
-            ff_action_is_platform(r))
+            ff_action_is_made_up(r))
             continue;
         double worth = (double)r->successor_count * (r->mode == FF_MODE_IDLE ? 2.0 : 1.0) -
                        100.0 * fabs((double)r->theta) - 50.0 * (double)r->speed;
@@ -239,6 +257,7 @@ uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *ch
             take(&s, *stand);
             take_needed(&s);
             take_rest(&s);
+            take_made_up(&s);
             prune(&s, *stand);
         }
     }

@@ -147,10 +147,11 @@ static inline ff_set_root ff_set_root_at(const ff_action_set *set, const ff_set_
  * it costs at a pace, J/kg with penalties (algorithms B.2) and with the price of the time that it loses over walking. */
 bool ff_action_is_usable(const ff_pack_action *record);
 bool ff_action_is_platform(const ff_pack_action *record);
+bool ff_action_is_made_up(const ff_pack_action *record); /* a jump or a duck that no clip shows */
 ff_action_class ff_action_class_of(const ff_pack_action *record);
 float ff_action_cost(const ff_pack_action *record, float pace);
 
-/* Which actions of the pack to take: marks chosen[], at most cap; returns how many (plan_select.c). */
+/* Which actions of the pack to take: marks chosen[], at most cap and, from 40 on, the jumps and ducks that were made up; returns how many (plan_select.c). */
 uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *chosen, uint32_t *stand);
 
 #endif

@@ -3,6 +3,7 @@
 #define FF_TEST_PLAY_WALK_H
 
 #include "runtime/core/base/random.h"
+#include "runtime/core/plan_set.h"
 #include "runtime/core/play.h"
 #include "tests/built_in_pack.h"
 
@@ -107,9 +108,13 @@ static inline double play_chain_pace(play_chain *chain, const ff_pack_action *ac
 static inline bool play_chain_next(const play_world *w, ff_play *play, play_chain *chain, ff_play_order *out)
 {
     const ff_pack_action *last = &w->pack->actions[chain->last];
-    for (int tries = 0; tries < 200 && last->successor_count > 0; ++tries) {
-        uint32_t k = (uint32_t)(ff_random_unit(&chain->random) * last->successor_count);
+    uint32_t list[1024], count = 0; /* but what was made up for danger */
+    for (uint32_t k = 0; k < last->successor_count && count < 1024; ++k) {
         uint32_t next = w->pack->successors[last->first_successor + k].action;
+        if (!ff_action_is_made_up(&w->pack->actions[next])) list[count++] = next;
+    }
+    for (int tries = 0; tries < 200 && count > 0; ++tries) {
+        uint32_t next = list[(uint32_t)(ff_random_unit(&chain->random) * count)];
         const ff_pack_action *action = &w->pack->actions[next];
         if (!play_may_follow(action) || !chain->feet[action->support].planted) continue;
         const ff_play_foot *foot = &chain->feet[action->support];

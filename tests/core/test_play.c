@@ -63,10 +63,10 @@ static void every_planned_print_is_stood_on_where_and_when_the_plan_says(void **
             assert_true(is_down(w, &after, foot, land, 0.005));
             while (down > order.start && is_down(w, &after, foot, land, 0.0035))
                 after = play_look(w, &play, down -= 0.1 / HZ);
-            /* Of steps that walk: who turns on the spot or comes to a stand has the foot down a little before. */
+            /* In the clip's own time, of steps that walk: who turns on the spot or comes to a stand has the foot down a little before. */
             bool walks = action->mode == FF_MODE_WALK_SHORT || action->mode == FF_MODE_WALK_LONG;
             if (walks && !(action->flags & FF_ACTION_TO_STANDING))
-                most_early = ff_max(most_early, end - down);
+                most_early = ff_max(most_early, (end - down) * order.pace);
             ++prints;
         }
     }

@@ -296,7 +296,9 @@ static void derived_actions_fill_what_is_missing_and_stand_where_they_should(voi
         if (!(a->flags & FF_ACTION_DERIVED)) continue;
         ++derived;
         assert_true(with.pack->clips[a->clip].flags & FF_CLIP_DERIVED);
-        assert_true(a->flags & (FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING));
+        /* All but a leap, which goes from one step of a walk to another. */
+        assert_true((a->flags & (FF_ACTION_FROM_STANDING | FF_ACTION_TO_STANDING)) ||
+                    a->mode == FF_MODE_JUMP);
         assert_true(a->successor_count >= 1);
         assert_true(a->coarse_radius > 0.3f && a->coarse_radius < 1.0f);
     }
