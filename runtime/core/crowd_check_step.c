@@ -94,6 +94,8 @@ const char *ff_crowd_check_stepper(const ff_crowd *crowd, const void *element, s
                               LONGEST, byte))
         return "a number is too large";
     if (s->moves != FF_PLANNER_FOOTSTEPS) return NULL;
+    *byte = offsetof(ff_stepper, evasions);
+    if (s->evasions > (FF_EVADE_JUMP | FF_EVADE_DUCK)) return "it evades in a way that is none";
     *byte = offsetof(ff_stepper, plan);
     if (!plan_fits(crowd, &s->plan) || s->at >= s->plan.count) return "a plan does not hold together";
     *byte = offsetof(ff_stepper, track);

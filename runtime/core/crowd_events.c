@@ -46,15 +46,19 @@ static bool crossed(const ff_crowd *crowd, uint32_t slot, double time)
     return false;
 }
 
-/* s until an obstacle of the kind is met, within what is foreseen; INFINITY: it is not. */
-static double until_met(const ff_crowd *crowd, const ff_stepper *s, ff_obstacle_kind kind, double time)
+/* s until an obstacle of the kind is met, within what is foreseen; INFINITY: it is not. How those that are about to be met can be
+ * evaded is added to what *evasions says. */
+static double until_met(const ff_crowd *crowd, const ff_stepper *s, ff_obstacle_kind kind, double time,
+                        uint32_t *evasions)
 {
     double least = INFINITY, when;
     for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
         const ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
-        if (obstacle->kind == (uint32_t)kind &&
-            ff_track_meets(&s->track, time, FORESEEN, &obstacle->shape, obstacle->velocity, 0.0, &when))
-            least = ff_min(least, when - time);
+        if (obstacle->kind != (uint32_t)kind ||
+            !ff_track_meets(&s->track, time, FORESEEN, &obstacle->shape, obstacle->velocity, 0.0, &when))
+            continue;
+        least = ff_min(least, when - time);
+        if (when - time <= DANGER) *evasions |= ff_shape_evasions(&obstacle->shape);
     }
     return least;
 }
@@ -88,10 +92,14 @@ void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
         call_for(s, FF_EVENT_GOAL, time);
     if (!arrived && (done || time - s->created >= def->expiry || s->consumed >= def->expiry_actions))
         call_for(s, FF_EVENT_EXPIRY, time);
-    double on_path = until_met(crowd, s, FF_OBSTACLE_PATH, time),
-           moved = until_met(crowd, s, FF_OBSTACLE_FREE, time);
+    uint32_t evasions = 0;
+    double on_path = until_met(crowd, s, FF_OBSTACLE_PATH, time, &evasions),
+           moved = until_met(crowd, s, FF_OBSTACLE_FREE, time, &evasions);
     if (crossed(crowd, slot, time) || on_path < INFINITY) call_for(s, FF_EVENT_NEARBY, time);
-    if (ff_min(on_path, moved) <= DANGER) call_for(s, FF_EVENT_DANGER, time);
+    if (ff_min(on_path, moved) <= DANGER) {
+        call_for(s, FF_EVENT_DANGER, time);
+        s->evasions = evasions;
+    }
     if (moved <= IMMINENT || met_by_velocity(crowd, slot, time)) {
         if (!(s->pending >> FF_EVENT_SURPRISE & 1u)) s->surprised = time;
         call_for(s, FF_EVENT_SURPRISE, time);

@@ -40,7 +40,7 @@ typedef struct ff_stepper {
     uint32_t moves, wanted; /* FF_PLANNER_*: how it moves, and how it is to move */
     uint32_t landed;        /* 1: in the last step a foot came down, or both stand */
     uint32_t changed;       /* 1: the plan was put in force in the last step */
-    uint32_t unused;
+    uint32_t evasions;      /* FF_EVADE_*: what gets it past what is about to hit it */
     ff_plan_counts counts;
 } ff_stepper;
 

@@ -210,7 +210,7 @@ static ff_vec2 on_path(const ff_crowd_obstacle *obstacle, double time)
 
 bool ff_obstacle_is_evaded(const ff_crowd_obstacle *obstacle)
 {
-    return obstacle->kind == FF_OBSTACLE_FREE && ff_shape_is_evaded(&obstacle->shape) &&
+    return obstacle->kind == FF_OBSTACLE_FREE && ff_shape_evasions(&obstacle->shape) != 0 &&
            ff_dot2(obstacle->velocity, obstacle->velocity) > 0.0;
 }
 

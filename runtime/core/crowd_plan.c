@@ -212,7 +212,7 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
     ff_plan_goal goal = goal_of(crowd, job->slot, job->target);
     ff_plan_options options = f->options;
     if (s->pending >> FF_EVENT_DANGER & 1u) {
-        options.reactive = 1;
+        options.reactive = (uint8_t)s->evasions;
         options.reactive_cost = EVADE_COST;
     }
     ff_plan_result result =

@@ -179,7 +179,9 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
         uint32_t k = leaps ? (n + before->step_count) % count : n; /* leaps first */
         const ff_set_next *next = &set->next[before->first_next + k];
         const ff_set_action *b = &set->actions[next->action];
-        if (next->action == now->action || b->support != set->actions[now->action].support) continue;
+        if (next->action == now->action || !ff_set_allows(b, s->evasions) ||
+            b->support != set->actions[now->action].support)
+            continue;
         ff_plan_step step = *now;
         step.action = next->action;
         step.start = time - done * (double)b->duration;

@@ -160,8 +160,9 @@ typedef struct ff_shape {
     uint32_t reserved;
 } ff_shape;
 
-/* Can it be jumped over or ducked under, if it moves? */
-bool ff_shape_is_evaded(const ff_shape *shape);
+/* How something that moves can be evaded on the spot, as bits. */
+enum { FF_EVADE_JUMP = 1, FF_EVADE_DUCK = 2 };
+uint32_t ff_shape_evasions(const ff_shape *shape);
 
 /* A place on the way of an obstacle that moves on a known path. Between two it moves straight and evenly; it waits at the
  * last one, or begins again when the path goes round. */
@@ -259,7 +260,7 @@ typedef struct ff_plan_options {
     uint8_t safe;  /* plans end in a checked stop; default 1. 0: as in the paper */
     uint8_t table; /* the pack's reach table guides the search; default 1 */
     uint8_t merge; /* places that are nearly the same count as one; default 1 */
-    uint8_t reactive; /* jumps and ducks too, for imminent danger; default 0 */
+    uint8_t reactive; /* FF_EVADE_*: jumps, ducks too, for imminent danger; default 0 */
 } ff_plan_options;
 ff_plan_options ff_plan_options_default(void);
 ff_plan_goal ff_plan_goal_at(ff_vec2 at);

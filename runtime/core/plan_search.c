@@ -40,6 +40,8 @@ static void expand(ff_search *s, uint32_t index)
     if (n->depth >= s->options.horizon) return;
     uint32_t next_count = s->options.reactive ? a->next_count : a->step_count;
     for (uint32_t k = 0; k < next_count; ++k) {
+        uint16_t next = s->set->next[a->first_next + k].action;
+        if (k >= a->step_count && !ff_set_allows(&s->set->actions[next], s->options.reactive)) continue;
         ff_search_node child = ff_search_child(s, index, (uint16_t)k);
         consider(s, &child);
     }

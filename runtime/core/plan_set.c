@@ -80,6 +80,7 @@ static void take_action(ff_action_set *set, const ff_body_frame *body, uint32_t 
     if (r->flags & FF_ACTION_TO_STANDING) a->flags |= FF_SET_TO_STANDING;
     if (r->flags & FF_ACTION_FROM_STANDING) a->flags |= FF_SET_FROM_STANDING;
     if (ff_action_is_platform(r)) a->flags |= FF_SET_REACTIVE;
+    if (r->mode == FF_MODE_CROUCH) a->flags |= FF_SET_DUCK;
     take_samples(set, a, r);
     ff_set_ends_find(set->pack, body, pack_index, set->samples + a->first_knot, a->knots, &set->ends[index]);
 }

@@ -18,6 +18,7 @@ enum {
     FF_SET_TO_STANDING = 1,   /* ends in standing */
     FF_SET_FROM_STANDING = 2, /* begins in standing */
     FF_SET_REACTIVE = 4,      /* a jump, a duck: only when asked for */
+    FF_SET_DUCK = 8,          /* a duck */
 };
 
 /* What an action leads to. */
@@ -141,6 +142,14 @@ static inline ff_set_root ff_set_root_at(const ff_action_set *set, const ff_set_
     return (ff_set_root){p->a + f * (q->a - p->a), p->b + f * (q->b - p->b),
                          (p->about > q->about ? p->about : q->about) +
                              1e-4f}; /* which roundings do not come to */
+}
+
+/* May it be done by who may do what the bits FF_EVADE_* say? */
+static inline bool ff_set_allows(const ff_set_action *action, uint32_t evasions)
+{
+    if (!(action->flags & FF_SET_REACTIVE)) return true;
+    return (evasions & (action->flags & FF_SET_DUCK ? (uint32_t)FF_EVADE_DUCK : (uint32_t)FF_EVADE_JUMP)) !=
+           0;
 }
 
 /* Of the pack's records (plan_action.c), for whoever prepares plans: can it be walked on level ground; is it a jump or a duck; its class; what

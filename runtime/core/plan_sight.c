@@ -103,9 +103,10 @@ static void find_rooms(ff_sight *s)
 #define JUMPED 0.45 /* m: no higher is what can be jumped over ... */
 #define DUCKED 1.0  /* ... and no lower what can be ducked under */
 
-bool ff_shape_is_evaded(const ff_shape *shape)
+uint32_t ff_shape_evasions(const ff_shape *shape)
 {
-    return shape->high <= JUMPED || shape->low >= DUCKED;
+    return (shape->high <= JUMPED ? (uint32_t)FF_EVADE_JUMP : 0u) |
+           (shape->low >= DUCKED ? (uint32_t)FF_EVADE_DUCK : 0u);
 }
 
 /* Where a mover is at a time. */
@@ -148,7 +149,7 @@ static void see_movers(ff_sight *s, const ff_plan_world *world)
         m->grow = 0.0;
         m->known = FF_TRACK_KNOTS_MAX;
         m->gone = 0;
-        m->evaded = ff_shape_is_evaded(&shape);
+        m->evaded = ff_shape_evasions(&shape) != 0;
         double time = (double)s->first_knot * FF_TRACK_STEP;
         for (uint32_t k = 0; k < FF_TRACK_KNOTS_MAX; ++k)
             m->at[k] = ff_add2(centre, ff_mover_at(from, time + k * FF_TRACK_STEP));

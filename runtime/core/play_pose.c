@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-#define GRIP 0.12             /* s, in which a foot lets go of the ground and takes hold of it */
-#define RAISE (25.0 * FF_DEG) /* a heel may be raised so far before the hips come down for it */
+#define GRIP 0.12                  /* s, in which a foot lets go of the ground and takes hold of it */
+#define RAISE (25.0 * FF_DEG)      /* a heel may be raised so far before the hips come down for it */
 #define MOST_RAISE (35.0 * FF_DEG) /* and so far at all */
 #define MOST_DROP 0.10             /* m */
 #define ROUND 0.01                 /* m, over which hips begin to come down */

@@ -251,7 +251,7 @@ static void jumps_and_ducks_are_thought_of_only_when_asked_for(void **state)
     options.nodes = 1;
     uint32_t steps =
         ff_plan_search(w->set, &world, &start, 0.1, &goal, &options, w->scratch, &plan).generated;
-    options.reactive = 1;
+    options.reactive = FF_EVADE_JUMP | FF_EVADE_DUCK;
     uint32_t all = ff_plan_search(w->set, &world, &start, 0.1, &goal, &options, w->scratch, &plan).generated;
     assert_int_equal(all - steps, a->next_count - a->step_count);
 }
