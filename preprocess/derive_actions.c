@@ -6,6 +6,7 @@
 #include "preprocess/standing.h"
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
+#include "runtime/core/plan_action.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,6 +60,7 @@ static bool between(double value, double low, double high)
 
 /* m: the feet are both so high at once in a jump that is of use, the head so low in a duck. */
 static const double FEET_UP = 0.45, HEAD_DOWN = 1.12;
+static const double LEAP_LONGEST = 1.2; /* s: captured jumps that take a run-up are no leaps out of a step */
 
 /* Is the captured one of the recipe's kind, between what it asks for at both ends, and high or low enough? */
 static bool does_reactive(const ff_action *action, const recipe *what)
@@ -71,7 +73,7 @@ static bool does_reactive(const ff_action *action, const recipe *what)
     double way = ff_length2(ff_v2((double)r->root_displacement[0], (double)r->root_displacement[1]));
     if (r->mode != (duck ? FF_MODE_CROUCH : FF_MODE_JUMP) || (r->flags & ends) != wanted ||
         !between(way, what->least, what->most) || fabs((double)r->theta) > 15.0 * FF_DEG ||
-        (leap && (double)r->speed > 2.0))
+        (leap && ((double)r->speed > 2.0 || (double)r->duration > LEAP_LONGEST)) || !ff_action_is_usable(r))
         return false;
     double high = 0.0, low = INFINITY;
     for (uint32_t k = 0; k < r->collider_samples; ++k) {

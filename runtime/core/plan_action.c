@@ -1,5 +1,6 @@
-/* What a pack's record says to whoever plans with it: can it be walked, of which class is its end, what does it cost. */
-#include "runtime/core/plan_set.h"
+#include "runtime/core/plan_action.h"
+
+#include "runtime/core/plan.h"
 
 static const float RUN_FACTOR = 1.3f, CROSS_FACTOR = 1.1f; /* algorithms B.2 */
 static const double CROSS = -20.0 * FF_DEG;

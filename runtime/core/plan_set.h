@@ -4,15 +4,7 @@
 #define FF_PLAN_SET_H
 
 #include "runtime/core/plan.h"
-
-#define FF_E_S 2.23 /* J/(kg s): of standing (algorithms B.2) */
-#define FF_E_W 1.26 /* J s/(kg m2) */
-/* m/s: who is slower loses time, which has a price. As fast as adults walk who are at ease; the cheapest is 1.33. */
-#define FF_WALK_SPEED 1.45f
-
-#define FF_PLATFORM_COST 150.0f /* J/kg, of a jump or a duck on top of its energy (algorithms B.2) */
-#define FF_ACTION_SHORTEST 0.2f /* s, of an action that can be planned with */
-#define FF_ACTION_LONGEST 3.0f
+#include "runtime/core/plan_action.h"
 
 enum {
     FF_SET_TO_STANDING = 1,   /* ends in standing */
@@ -20,14 +12,6 @@ enum {
     FF_SET_REACTIVE = 4,      /* a jump, a duck: only when asked for */
     FF_SET_DUCK = 8,          /* a duck */
 };
-
-/* What an action leads to. */
-typedef enum ff_action_class {
-    FF_CLASS_WALK,
-    FF_CLASS_STAND,
-    FF_CLASS_SIDE_OPEN, /* feet apart, one goes on to the side or closes */
-    FF_CLASS_BACK_OPEN
-} ff_action_class;
 
 typedef struct ff_set_action {
     float duration, cost; /* s, J/kg with penalties */
@@ -151,14 +135,6 @@ static inline bool ff_set_allows(const ff_set_action *action, uint32_t evasions)
     return (evasions & (action->flags & FF_SET_DUCK ? (uint32_t)FF_EVADE_DUCK : (uint32_t)FF_EVADE_JUMP)) !=
            0;
 }
-
-/* Of the pack's records (plan_action.c), for whoever prepares plans: can it be walked on level ground; is it a jump or a duck; its class; what
- * it costs at a pace, J/kg with penalties (algorithms B.2) and with the price of the time that it loses over walking. */
-bool ff_action_is_usable(const ff_pack_action *record);
-bool ff_action_is_platform(const ff_pack_action *record);
-bool ff_action_is_made_up(const ff_pack_action *record); /* a jump or a duck that no clip shows */
-ff_action_class ff_action_class_of(const ff_pack_action *record);
-float ff_action_cost(const ff_pack_action *record, float pace);
 
 /* Which actions of the pack to take: marks chosen[], at most cap and, from 40 on, the jumps and ducks that were made up; returns how many (plan_select.c). */
 uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *chosen, uint32_t *stand);

@@ -3,7 +3,7 @@
 #define FF_TEST_PLAY_WALK_H
 
 #include "runtime/core/base/random.h"
-#include "runtime/core/plan_set.h"
+#include "runtime/core/plan_action.h"
 #include "runtime/core/play.h"
 #include "tests/built_in_pack.h"
 
