@@ -3,6 +3,7 @@
 #include "runtime/core/crowd_state.h"
 
 #define GOAL_MOVED 0.2     /* m, algorithms B.8 */
+#define TURNED_AWAY 0.35   /* rad, from what one shall look at */
 #define WAYPOINT_NEAR 0.6  /* m, within which a waypoint counts as passed (B.3) */
 #define WAYPOINT_WIDTH 0.3 /* m, half of the way on which the next one is seen (B.7) */
 #define FORESEEN 2.0       /* s, in which obstacles on paths are looked for */
@@ -90,6 +91,8 @@ void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
     bool arrived = ff_stepper_arrived(crowd, slot), done = s->at + 1 == s->plan.count;
     if (ff_length2(ff_sub2(ff_stepper_target(crowd, slot), s->target)) > GOAL_MOVED)
         call_for(s, FF_EVENT_GOAL, time);
+    double facing;
+    if (done && ff_stepper_turns(crowd, slot, &facing) > TURNED_AWAY) call_for(s, FF_EVENT_GOAL, time);
     if (!arrived && (done || time - s->created >= def->expiry || s->consumed >= def->expiry_actions))
         call_for(s, FF_EVENT_EXPIRY, time);
     uint32_t evasions = 0;

@@ -2,6 +2,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/crowd_state.h"
+#include "runtime/core/nav_facing.h"
 #include "runtime/core/plan_set.h"
 #include "runtime/core/plan_solids.h"
 
@@ -224,6 +225,15 @@ bool ff_stepper_arrived(const ff_crowd *crowd, uint32_t slot)
     const ff_traits *traits = &crowd->traits[slot];
     return stands(&crowd->steppers[slot]) &&
            ff_length2(ff_sub2(traits->goal, crowd->bodies[slot].position)) <= traits->goal_tolerance;
+}
+
+double ff_stepper_turns(const ff_crowd *crowd, uint32_t slot, double *heading)
+{
+    const ff_traits *traits = &crowd->traits[slot];
+    const ff_body *body = &crowd->bodies[slot];
+    if (traits->face == FF_FACE_FREE || !ff_stepper_arrived(crowd, slot)) return 0.0;
+    *heading = ff_nav_face(traits->face, traits->face_at, body->position, body->heading);
+    return fabs(ff_wrap(*heading - body->heading));
 }
 
 /* The next step of the plan is due. */

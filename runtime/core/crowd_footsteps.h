@@ -149,6 +149,9 @@ void ff_stepper_adopt(struct ff_crowd *crowd, uint32_t slot, const ff_plan_job *
 ff_vec2 ff_stepper_target(const struct ff_crowd *crowd, uint32_t slot);
 /* It stands within the tolerance of its goal. */
 bool ff_stepper_arrived(const struct ff_crowd *crowd, uint32_t slot);
+/* How far it has to turn to what it shall look at, from where it stands, rad; 0 when there is nothing, or it goes somewhere. *heading:
+ * where it shall face. */
+double ff_stepper_turns(const struct ff_crowd *crowd, uint32_t slot, double *heading);
 ff_play_order ff_order_of(const ff_footsteps *footsteps, const ff_plan_step *step);
 
 /* A job's plan is free of the one that an agent has in force. */

@@ -12,8 +12,10 @@
 #define LEAD 0.5           /* s: and where they will be by then, too */
 #define GOAL_REACH 0.7     /* of the goal's tolerance, that a plan reaches into it */
 #define WAYPOINT_REACH 0.6 /* m */
-#define IMMINENT 1.0       /* s */
-#define BELIEVED 5.0       /* s, for which what is to be jumped or ducked is believed to go on */
+#define FACING                                                                                               \
+    0.25 /* rad, that one who looks at something may face beside it: half of the smallest turn, and some */
+#define IMMINENT 1.0 /* s */
+#define BELIEVED 5.0 /* s, for which what is to be jumped or ducked is believed to go on */
 #define EVADE_COST                                                                                           \
     20.0 /* J/kg, of a jump or a duck in danger: dearer than a few steps, cheaper than waiting for seconds */
 
@@ -188,6 +190,11 @@ static ff_plan_goal goal_of(const ff_crowd *crowd, uint32_t slot, ff_vec2 target
     ff_plan_goal goal = ff_plan_goal_at(target);
     bool last = target.a == traits->goal.a && target.b == traits->goal.b;
     goal.radius = last ? GOAL_REACH * traits->goal_tolerance : WAYPOINT_REACH;
+    /* Who is there turns on the spot. */
+    if (last && ff_stepper_turns(crowd, slot, &goal.heading) > 0.0) {
+        goal.radius = traits->goal_tolerance;
+        goal.tolerance = FACING;
+    }
     return goal;
 }
 

@@ -102,6 +102,34 @@ static void a_goal_that_moves_is_followed(void **state)
     ff_crowd_destroy(crowd);
 }
 
+/* Who is there turns to what it shall look at, stays where it is, and then plans no more. */
+static void who_has_arrived_turns_to_what_it_shall_look_at(void **state)
+{
+    (void)state;
+    ff_crowd_def def = footsteps_def(1);
+    ff_error error;
+    for (int i = 0; i < 12; ++i) {
+        ff_crowd *crowd = crowd_of(&def);
+        ff_agent agent = add(crowd, ff_v2(0.0, 0.0), ff_v2(3.0, 1.0), FF_PLANNER_FOOTSTEPS);
+        go(crowd, 5.0);
+        assert_int_equal(state_of(crowd, agent).reached, 1);
+        ff_vec2 was = state_of(crowd, agent).position,
+                to = ff_madd2(was, ff_fwd2(FF_TAU * i / 12.0 + 0.1), i % 2 ? 4.0 : 1.0);
+        ff_face face = i % 3 ? FF_FACE_POINT : FF_FACE_HEADING;
+        FF_ASSERT_OK(ff_crowd_set_facing(crowd, agent, face, i % 3 ? to : ff_sub2(to, was), &error), error);
+        go(crowd, 6.0);
+        ff_agent_state at = state_of(crowd, agent);
+        ff_vec2 way = i % 3 ? ff_sub2(to, at.position) : ff_sub2(to, was);
+        assert_int_equal(at.reached, 1);
+        FF_ASSERT_BELOW(fabs(ff_wrap(ff_atan2(way.b, way.a) - at.heading)), 0.36);
+        FF_ASSERT_BELOW(ff_length2(ff_sub2(at.position, was)), 0.5);
+        uint32_t searches = counts_of(crowd, agent).searches;
+        go(crowd, 3.0);
+        assert_int_equal(counts_of(crowd, agent).searches, searches);
+        ff_crowd_destroy(crowd);
+    }
+}
+
 static void waypoints_lead_round_a_wall_and_are_left_out_when_the_next_is_seen(void **state)
 {
     (void)state;
@@ -424,6 +452,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(who_is_alone_gets_there_and_makes_plans_when_they_expire),
         cmocka_unit_test(a_goal_that_moves_is_followed),
+        cmocka_unit_test(who_has_arrived_turns_to_what_it_shall_look_at),
         cmocka_unit_test(waypoints_lead_round_a_wall_and_are_left_out_when_the_next_is_seen),
         cmocka_unit_test(an_obstacle_on_a_known_path_is_noticed_and_avoided),
         cmocka_unit_test(an_unforeseen_wall_is_noticed_at_once_and_never_walked_through),
