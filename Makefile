@@ -181,8 +181,7 @@ walk_soak = $(B)/footfall-crowd bench walk --pack $(B)/builtin.ffpack --seconds 
 soak: ## fuzz long: 500,000 runs of every target (FUZZ_RUNS=N); an hour of every way of walking (WALK_SECONDS=N); 10,000 steps of every scene
 	scripts/setup.sh
 	+$(MAKE) programs $(B)/builtin.ffpack
-	for way in hybrid semi-procedural; do $(walk_soak) --synthesis $$way || exit 1; done
-	$(walk_soak) --check
+	for way in blending semi-procedural hybrid; do $(walk_soak) --synthesis $$way --check || exit 1; done
 	+$(MAKE) $(B)/tests/export/test_scene_bits $(B)/tests/core/test_footsteps
 	FF_WALLS=1000 FF_TEST_SECONDS=3600 scripts/run-tests.sh $(B):$(B)/tests/core/test_footsteps
 	FF_SCENE_STEPS=10000 FF_TEST_SECONDS=7200 scripts/run-tests.sh $(B):$(B)/tests/export/test_scene_bits

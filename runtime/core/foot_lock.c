@@ -8,7 +8,7 @@
 #define CLOSE_UP_SPEED 0.25  /* m/s (turning counted as in the blend space) */
 #define SPEED_UP_TIME 0.1    /* s, for which a root that speeds up is taken to go on doing so */
 #define LEAST_LIFT 0.035     /* m, of the ball in mid swing (study, section 5: 4.5 cm for small steps) */
-#define HEEL_CLEARANCE 0.015 /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
+#define HEEL_CLEARANCE 0.018 /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
 #define STRIKE 0.9           /* of the swing, which lasts until the foot is flat: the heel is down, */
 #define STRIKES_FROM 0.22    /* and comes down for so long: where swings slow, 0.77 is yet in their middle */
 #define LIFT_WINDOW 0.5      /* of the swing, for offsets of height after the lift ... */
