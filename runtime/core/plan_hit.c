@@ -36,12 +36,13 @@ float ff_knot_radius(const ff_knot *knot)
     return most > ff_collider_radius[FF_COLLIDER_ROOT] ? most : ff_collider_radius[FF_COLLIDER_ROOT];
 }
 
-/* Bit k: collider i of mine and k of theirs come nearer than their limit. */
+/* Bit k: collider i of mine and k of theirs come nearer than their limit; *within (if that is asked for) gets the same for reach + radius. */
 #ifdef __SSE2__
 static unsigned near_lanes(int i, const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
-                           float a, float b, const float *limit)
+                           float a, float b, const float *limit, const float *reach, float radius,
+                           unsigned *within)
 {
-    unsigned near = 0;
+    unsigned near = 0, about = 0;
     __m128 xa0 = _mm_set1_ps(x0->a[i] - a), xb0 = _mm_set1_ps(x0->b[i] - b);
     __m128 xa1 = _mm_set1_ps(x1->a[i] - a), xb1 = _mm_set1_ps(x1->b[i] - b);
     const __m128 zero = _mm_setzero_ps(), one = _mm_set1_ps(1.0f), tiny = _mm_set1_ps(1e-12f);
@@ -57,20 +58,28 @@ static unsigned near_lanes(int i, const ff_knot *x0, const ff_knot *x1, const ff
         pb = _mm_add_ps(pb, _mm_mul_ps(t, db));
         __m128 square = _mm_add_ps(_mm_mul_ps(pa, pa), _mm_mul_ps(pb, pb));
         near |= (unsigned)_mm_movemask_ps(_mm_cmple_ps(square, _mm_loadu_ps(limit + k))) << k;
+        if (!within) continue;
+        __m128 most = _mm_add_ps(_mm_loadu_ps(reach + k), _mm_set1_ps(radius));
+        about |= (unsigned)_mm_movemask_ps(_mm_cmple_ps(square, _mm_mul_ps(most, most))) << k;
     }
+    if (within) *within = about;
     return near;
 }
 #else
 static unsigned near_lanes(int i, const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
-                           float a, float b, const float *limit)
+                           float a, float b, const float *limit, const float *reach, float radius,
+                           unsigned *within)
 {
-    unsigned near = 0;
+    unsigned near = 0, about = 0;
     float xa0 = x0->a[i] - a, xb0 = x0->b[i] - b, xa1 = x1->a[i] - a, xb1 = x1->b[i] - b;
     for (int k = 0; k < FF_TRACK_LANES; ++k) {
         float pa = y0->a[k] - xa0, pb = y0->b[k] - xb0;
         float da = (y1->a[k] - xa1) - pa, db = (y1->b[k] - xb1) - pb;
-        if (ff_nearest_pass(pa, pb, da, db) <= limit[k]) near |= 1u << k;
+        float square = ff_nearest_pass(pa, pb, da, db), most = reach[k] + radius;
+        if (square <= limit[k]) near |= 1u << k;
+        if (square <= most * most) about |= 1u << k;
     }
+    if (within) *within = about;
     return near;
 }
 #endif
@@ -88,41 +97,44 @@ static bool share_height(int i, const ff_knot *x0, const ff_knot *x1, int k, con
            fminf(low[1][0], low[1][1]) <= fmaxf(high[0][0], high[0][1]);
 }
 
-/* Bits of the colliders of mine and theirs that are looked at. */
-static bool lanes_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
-                      float b, unsigned mine, unsigned theirs, const ff_limits *limits)
+/* Does collider i of mine meet those of theirs that come near it? */
+static bool one_hits(int i, const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
+                     unsigned near)
 {
-    for (int i = 0; mine; ++i, mine >>= 1) {
-        if (!(mine & 1u)) continue;
-        unsigned near = near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i]) & theirs;
-        for (int k = 0; near; ++k, near >>= 1)
-            if ((near & 1u) && share_height(i, x0, x1, k, y0, y1)) return true;
-    }
+    for (int k = 0; near; ++k, near >>= 1)
+        if ((near & 1u) && share_height(i, x0, x1, k, y0, y1)) return true;
     return false;
 }
 
 bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
                   float b, const ff_limits *limits)
 {
-    const unsigned all = (1u << FF_COLLIDER_COUNT) - 1u;
-    return lanes_hit(x0, x1, y0, y1, a, b, all, all, limits);
-}
-
-/* Bit k: collider k of theirs comes near the body about my root. */
-static unsigned near_body(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
-                          float b, float radius, const ff_limits *limits)
-{
-    float squared[FF_TRACK_LANES];
-    for (int k = 0; k < FF_TRACK_LANES; ++k)
-        squared[k] = (limits->reach[k] + radius) * (limits->reach[k] + radius);
-    return near_lanes(FF_COLLIDER_ROOT, x0, x1, y0, y1, a, b, squared);
+    for (int i = 0; i < FF_COLLIDER_COUNT; ++i)
+        if (one_hits(i, x0, x1, y0, y1,
+                     near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i], limits->reach, 0.0f, NULL)))
+            return true;
+    return false;
 }
 
 bool ff_bodies_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
                    float b, float mine, float theirs, const ff_limits *limits)
 {
-    unsigned of_theirs = near_body(x0, x1, y0, y1, a, b, mine, limits);
+    enum { ROOT = FF_COLLIDER_ROOT };
+    const float *squared = limits->squared[ROOT];
+    unsigned of_mine, of_theirs, near;
+    /* The roots first, each with all of the other one: they meet oftenest, and it is seen who else may. */
+    near = near_lanes(ROOT, x0, x1, y0, y1, a, b, squared, limits->reach, mine, &of_theirs);
     if (!of_theirs) return false;
-    unsigned of_mine = near_body(y0, y1, x0, x1, -a, -b, theirs, limits);
-    return lanes_hit(x0, x1, y0, y1, a, b, of_mine, of_theirs, limits);
+    if (near && one_hits(ROOT, x0, x1, y0, y1, near)) return true;
+    near = near_lanes(ROOT, y0, y1, x0, x1, -a, -b, squared, limits->reach, theirs, &of_mine);
+    if (near && one_hits(ROOT, y0, y1, x0, x1, near)) return true;
+    of_mine &= ~(1u << ROOT);
+    of_theirs &= ~(1u << ROOT);
+    if (!of_theirs) return false;
+    for (int i = 0; of_mine; ++i, of_mine >>= 1) {
+        if (!(of_mine & 1u)) continue;
+        near = near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i], limits->reach, 0.0f, NULL) & of_theirs;
+        if (near && one_hits(i, x0, x1, y0, y1, near)) return true;
+    }
+    return false;
 }

@@ -4,7 +4,7 @@
 
 #include "runtime/core/plan.h"
 
-/* Squares of how near colliders may come: [mine][theirs]. */
+/* Squares of how near colliders may come: [mine][theirs], the same both ways. */
 typedef struct ff_limits {
     float squared[FF_COLLIDER_COUNT][FF_TRACK_LANES];
     float reach

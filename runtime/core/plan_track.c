@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+static const float ROUNDING = 1e-4f; /* m, more than it comes to */
+
 /* ----------------------------------------------------------------------------------------------------- steps */
 
 static ff_vec2 from_step(const ff_plan_step *step, double a, double b)
@@ -189,6 +191,19 @@ static const ff_knot *knot_at(const ff_track *track, int64_t number, float *radi
     return &track->knots[k];
 }
 
+/* Do they take up room within margin of each other in the chunk that a knot is in? */
+static bool rooms_near(const ff_track *x, const ff_track *y, int64_t knot, ff_vec2 apart, float margin)
+{
+    int64_t chunk = ff_knot_chunk(knot), i = chunk - ff_knot_chunk(x->first),
+            k = chunk - ff_knot_chunk(y->first);
+    int64_t last_x = (int64_t)ff_track_rooms(x) - 1, last_y = (int64_t)ff_track_rooms(y) - 1;
+    const ff_track_room *p = &x->room[i < 0 ? 0 : (i > last_x ? last_x : i)];
+    const ff_track_room *q = &y->room[k < 0 ? 0 : (k > last_y ? last_y : k)];
+    float a = (float)apart.a, b = (float)apart.b;
+    return q->low_a + a <= p->high_a + margin && p->low_a <= q->high_a + a + margin &&
+           q->low_b + b <= p->high_b + margin && p->low_b <= q->high_b + b + margin;
+}
+
 bool ff_track_conflict(const ff_track *x, const ff_track *y, double from, double margin, double *when)
 {
     ff_limits limits = ff_limits_of((float)margin);
@@ -199,6 +214,10 @@ bool ff_track_conflict(const ff_track *x, const ff_track *y, double from, double
     float rx[2], ry[2];
     /* At least once, for two that only stand. */
     do {
+        if (!rooms_near(x, y, k, apart, (float)margin + ROUNDING)) {
+            k = (ff_knot_chunk(k) + 1) * FF_TRACK_CHUNK - 1; /* the next chunk */
+            continue;
+        }
         const ff_knot *x0 = knot_at(x, k, &rx[0]), *x1 = knot_at(x, k + 1, &rx[1]);
         const ff_knot *y0 = knot_at(y, k, &ry[0]), *y1 = knot_at(y, k + 1, &ry[1]);
         float mine = high_of(rx[0], rx[1]), theirs = high_of(ry[0], ry[1]),
