@@ -28,6 +28,7 @@ static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_act
     const ff_pack_collider *from = set->pack->colliders + r->first_collider;
     a->first_knot = set->knot_total;
     a->knots = r->collider_samples;
+    a->samples_per_s = (float)(a->knots - 1) / a->duration;
     set->knot_total += a->knots;
     ff_knot *to = set->samples + a->first_knot;
     float low_a = INFINITY, low_b = INFINITY, high_a = -INFINITY, high_b = -INFINITY;

@@ -18,6 +18,7 @@ typedef struct ff_set_action {
     float land[2];        /* m, in S0 */
     float root_end[2];    /* m */
     float theta, cosine, sine;
+    float samples_per_s;
     float circle[3]; /* a, b, radius: in S0, holds all colliders at all times */
     /* Of the successors: [0] of steps, [1] of jumps and ducks as well. */
     float next_longest[2];                       /* s */
@@ -114,14 +115,14 @@ static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *
         out->y[i] = p->y[i] + f * (q->y[i] - p->y[i]);
 }
 
-/* The root alone, to the same bits, and a radius about it that holds all colliders. */
+/* The root alone, and a radius about it that holds all colliders. */
 static inline ff_set_root ff_set_root_at(const ff_action_set *set, const ff_set_action *action, float t)
 {
-    float at = t * (float)(action->knots - 1) / action->duration;
-    int k = (int)at;
-    k = k < 0 ? 0 : (k > (int)action->knots - 2 ? (int)action->knots - 2 : k);
+    float at = t * action->samples_per_s;
+    int k = (int)at, last = (int)action->knots - 2;
+    k = k < last ? k : last;
     float f = at - (float)k;
-    f = f < 0.0f ? 0.0f : (f > 1.0f ? 1.0f : f);
+    f = f < 1.0f ? f : 1.0f;
     const ff_set_root *p = &set->roots[action->first_knot + (uint32_t)k], *q = p + 1;
     return (ff_set_root){p->a + f * (q->a - p->a), p->b + f * (q->b - p->b),
                          (p->about > q->about ? p->about : q->about) +

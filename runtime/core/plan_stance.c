@@ -312,31 +312,70 @@ static bool bodies_meet(ff_sight *sight, course *c, uint32_t who, uint32_t k)
     return ff_bodies_hit(x0, x1, y0, y1, seen->a, seen->b, mine, r0 > r1 ? r0 : r1, &sight->limits);
 }
 
-static bool meets_track(ff_sight *sight, course *c, uint32_t who)
+/* One who is near: between which knots. */
+typedef struct encounter {
+    uint64_t near;
+    uint32_t who, place; /* the place-th of the stance's near ones */
+    uint32_t nearest;    /* the knot after which the roots are */
+} encounter;
+
+/* Does its root come near? *touch: it meets the other root, and that is all there is to know. */
+static bool comes_near(ff_sight *sight, course *c, uint32_t who, encounter *out, bool *touch)
 {
     const ff_stance *st = c->stance;
+    *touch = false;
     if (!ff_sight_room_near(&sight->seen[who], ff_sight_chunk(sight, st->knot),
                             ff_sight_chunk(sight, c->last), c->a, c->b, c->radius))
         return false;
-    if (c->total < 2) return false;
     if (!c->begun) begin_course(sight, c);
     uint32_t from = st->knot < FF_TRACK_KNOTS_MAX ? (uint32_t)st->knot : FF_TRACK_KNOTS_MAX;
-    float square[FF_SIGHT_KNOTS + 4];
-    uint64_t near = near_path(c, path_of(sight, who), from, sight->margin, square);
-    if (!near) return false;
-    /* Where they are nearest they meet first. */
-    uint32_t nearest = 0;
-    float least = INFINITY;
+    float square[FF_SIGHT_KNOTS + 4], least = INFINITY;
+    out->who = who;
+    out->near = near_path(c, path_of(sight, who), from, sight->margin, square);
+    if (!out->near) return false;
     for (uint32_t k = 0; k + 1 < c->total; ++k)
-        if ((near >> k & 1u) && square[k] < least) {
-            nearest = k;
+        if (square[k] < least) {
+            out->nearest = k;
             least = square[k];
         }
-    if (bodies_meet(sight, c, who, nearest)) return true;
-    near &= ~((uint64_t)1 << nearest);
+    *touch = least <= sight->limits.squared[FF_COLLIDER_ROOT][FF_COLLIDER_ROOT] &&
+             bodies_meet(sight, c, who, out->nearest);
+    return true;
+}
+
+/* Do the bodies meet? Where they are nearest they meet first. */
+static bool bodies_touch(ff_sight *sight, course *c, const encounter *e)
+{
+    uint64_t near = e->near;
+    if ((near >> e->nearest & 1u) && bodies_meet(sight, c, e->who, e->nearest)) return true;
+    near &= ~((uint64_t)1 << e->nearest);
     for (uint32_t k = 0; near >> k; ++k)
-        if ((near >> k & 1u) && bodies_meet(sight, c, who, k)) return true;
+        if ((near >> k & 1u) && bodies_meet(sight, c, e->who, k)) return true;
     return false;
+}
+
+/* Is somebody of the near ones met? Roots first, all of them: they tell soonest, and of most. */
+static bool meets_somebody(ff_sight *sight, course *c, ff_stance *st)
+{
+    encounter list[FF_SIGHT_MAX];
+    uint32_t count = 0, met = FF_SIGHT_MAX;
+    bool touch;
+    if (c->total < 2) return false;
+    for (uint32_t i = 0; i < st->near_count && met == FF_SIGHT_MAX; ++i) {
+        if (!comes_near(sight, c, st->near[i], &list[count], &touch)) continue;
+        if (touch)
+            met = i;
+        else
+            list[count++].place = i;
+    }
+    for (uint32_t i = 0; i < count && met == FF_SIGHT_MAX; ++i)
+        if (bodies_touch(sight, c, &list[i])) met = list[i].place;
+    if (met == FF_SIGHT_MAX) return false;
+    /* Who is in the way of one action is in the way of others: looked at first from now on. */
+    uint8_t who = st->near[met];
+    st->near[met] = st->near[0];
+    st->near[0] = who;
+    return true;
 }
 
 /* Does the course touch what does not move, or moves on known paths? */
@@ -403,14 +442,7 @@ bool ff_stance_free(ff_sight *sight, ff_stance *st, const ff_set_next *next, flo
     c.a = c.anchor[0] + st->cosine * b->circle[0] - st->sine * b->circle[1];
     c.b = c.anchor[1] + st->sine * b->circle[0] + st->cosine * b->circle[1];
     c.radius = b->circle[2] + next->jump + st->moved + sight->margin;
-    for (uint32_t i = 0; i < st->near_count; ++i) {
-        if (!meets_track(sight, &c, st->near[i])) continue;
-        /* Who is in the way of one action is in the way of others: looked at first from now on. */
-        uint8_t who = st->near[i];
-        st->near[i] = st->near[0];
-        st->near[0] = who;
-        return false;
-    }
+    if (meets_somebody(sight, &c, st)) return false;
     if (meets_things(sight, &c)) return false;
     if (cost && sight->cost > 0.0f) *cost = proximity_cost(sight, &c);
     return true;
