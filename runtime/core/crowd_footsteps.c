@@ -12,7 +12,7 @@
 /* A second and agent: who crosses makes 0.65, where it is dense in 75 nodes; what is made at once makes a long frame
  * (study 4.7). */
 #define PLANS_PER_SECOND 0.8
-#define NODES_PER_SECOND 90.0
+#define TESTS_PER_SECOND 600.0
 
 /* ------------------------------------------------------------------------------------------------- memory */
 
@@ -72,7 +72,7 @@ ff_status ff_footsteps_create(ff_crowd *crowd, ff_error *error)
     crowd->footsteps = f;
     f->options = options_of(&def->footsteps);
     f->job_max = most_jobs(def);
-    f->node_max = (uint64_t)(NODES_PER_SECOND * def->step * def->max_agents);
+    f->test_max = (uint64_t)(TESTS_PER_SECOND * def->step * def->max_agents);
     ff_status status =
         ff_action_set_create_varied(crowd->pack, def->footsteps.actions, def->footsteps.speed_variations,
                                     FF_SPEED_VARIATIONS_MAX, &f->actions, error);

@@ -61,6 +61,7 @@ typedef struct ff_plan_job {
     uint32_t good; /* 1: found, and free of all plans in force */
     uint32_t kind; /* FF_JOB_* */
     uint32_t urgency;
+    uint32_t tests, spare; /* collision tests of the search */
     double asked;
 } ff_plan_job;
 enum { FF_JOB_PLAN, FF_JOB_ENTER, FF_JOB_REACT };
@@ -97,7 +98,7 @@ typedef struct ff_footsteps {
     ff_plan_lane lane[FF_PLAN_LANES];
     ff_plan_job *jobs; /* [job_max] */
     uint32_t job_max, job_count;
-    uint64_t node_max;    /* of a step: no more searches are begun then */
+    uint64_t test_max;    /* of a step: no more searches are begun then */
     uint32_t *order;      /* [job_max] of slots */
     ff_bounds *bounds;    /* [max_agents], by slot */
     atomic_uint next_job; /* of this step; up to job_end */

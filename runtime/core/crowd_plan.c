@@ -19,7 +19,8 @@
 #define EVADE_COST                                                                                           \
     20.0 /* J/kg, of a jump or a duck in danger: dearer than a few steps, cheaper than waiting for seconds */
 
-enum { AT_ONCE = 8 };        /* searches between two looks at how many nodes there were */
+/* Collision tests, which take most of a search's time: of a search that is not easy; fewest searches at a time. */
+enum { USUAL_TESTS = 1000, AT_ONCE = 2 };
 enum { FIRST, SOON, LATER }; /* urgency */
 enum { URGENT = 1 << FF_EVENT_SURPRISE | 1 << FF_EVENT_DANGER };
 
@@ -212,6 +213,7 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
     double time = ff_crowd_time(crowd);
     ff_plan current = s->plan;
     job->good = 0;
+    job->tests = 0;
     memset(&job->counts, 0, sizeof job->counts);
     if (job->kind == FF_JOB_ENTER && !ff_stepper_enters(crowd, job->slot, time, &current)) return;
     ff_plan_world world = world_of(crowd, job->slot, lane);
@@ -226,6 +228,7 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
         ff_plan_search(f->actions, &world, &current, time, &goal, &options, lane->scratch, &job->plan);
     job->counts.searches = 1;
     job->counts.nodes = result.expanded;
+    job->tests = result.tested;
     if (result.outcome == FF_PLAN_NONE)
         ++job->counts.failed;
     else
@@ -248,23 +251,25 @@ static void run_lane(void *context, uint32_t index)
         search(crowd, &f->jobs[i], &f->lane[index]);
 }
 
-/* A few at a time, until all are done or they have looked at as many nodes as a step may: so no frame is much longer than the
- * others, and which are done does not depend on the number of threads. The others ask again in the next step. */
+/* A few at a time, until all are done or have made as many tests as a step may: so no frame is much longer than the others, and
+ * which are done does not depend on the number of threads. The others ask again in the next step. */
 static void search_all(ff_crowd *crowd)
 {
     ff_footsteps *f = crowd->footsteps;
     lane_work work = {crowd};
-    uint64_t nodes = 0;
+    uint64_t tests = 0;
     uint32_t done = 0;
-    while (done < f->job_count && (done == 0 || nodes < f->node_max)) {
-        f->job_end = done + AT_ONCE < f->job_count ? done + AT_ONCE : f->job_count;
+    while (done < f->job_count && (done == 0 || tests < f->test_max)) {
+        uint64_t count = (f->test_max > tests ? f->test_max - tests : 0) / USUAL_TESTS;
+        if (count < AT_ONCE) count = AT_ONCE;
+        f->job_end = count < f->job_count - done ? done + (uint32_t)count : f->job_count;
         atomic_store(&f->next_job, done);
         if (crowd->def.tasks)
             crowd->def.tasks(crowd->def.task_pool, f->lane_count, run_lane, &work);
         else
             ff_tasks_for(crowd->own_tasks, f->lane_count, 1, run_lane, &work);
         for (; done < f->job_end; ++done)
-            nodes += f->jobs[done].counts.nodes;
+            tests += f->jobs[done].tests;
     }
     f->job_count = done;
 }
