@@ -28,7 +28,6 @@ static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_act
     const ff_pack_collider *from = set->pack->colliders + r->first_collider;
     a->first_knot = set->knot_total;
     a->knots = r->collider_samples;
-    a->samples_per_s = (float)(a->knots - 1) / a->duration;
     set->knot_total += a->knots;
     ff_knot *to = set->samples + a->first_knot;
     float low_a = INFINITY, low_b = INFINITY, high_a = -INFINITY, high_b = -INFINITY;
@@ -208,6 +207,7 @@ static void measure_next(ff_action_set *set)
     set->rate = (float)(2.0 * sqrt(FF_E_S * FF_E_W));
     for (uint32_t i = 0; i < set->count; ++i) {
         ff_set_action *a = &set->actions[i];
+        a->samples_per_s = (float)(a->knots - 1) / a->duration;
         for (uint32_t k = 0; k < a->next_count; ++k) {
             ff_set_next *next = &set->next[a->first_next + k];
             const ff_set_action *b = &set->actions[next->action];

@@ -6,6 +6,10 @@
 #include "runtime/core/plan.h"
 #include "runtime/core/plan_action.h"
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 enum {
     FF_SET_TO_STANDING = 1,   /* ends in standing */
     FF_SET_FROM_STANDING = 2, /* begins in standing */
@@ -96,6 +100,20 @@ struct ff_action_set {
     float reach_share;  /* of what the reach tables say: no sequence with speeds varied costs less */
 };
 
+/* p + f (q - p), for all colliders. */
+static inline void ff_mix_lanes(const float *p, const float *q, float f, float *restrict out)
+{
+#ifdef __SSE2__
+    for (int i = 0; i <= FF_TRACK_LANES - 4; i += FF_TRACK_LANES - 4) { /* the middle ones twice */
+        __m128 x = _mm_loadu_ps(p + i), d = _mm_sub_ps(_mm_loadu_ps(q + i), x);
+        _mm_storeu_ps(out + i, _mm_add_ps(x, _mm_mul_ps(_mm_set1_ps(f), d)));
+    }
+#else
+    for (int i = 0; i < FF_TRACK_LANES; ++i)
+        out[i] = p[i] + f * (q[i] - p[i]);
+#endif
+}
+
 /* Colliders of an action at t seconds from its start, in S0. */
 static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *action, float t,
                                  ff_knot *restrict out)
@@ -106,13 +124,9 @@ static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *
     float f = at - (float)k;
     f = f < 0.0f ? 0.0f : (f > 1.0f ? 1.0f : f);
     const ff_knot *p = &set->samples[action->first_knot + (uint32_t)k], *q = p + 1;
-    /* Loop by loop, which compilers make four lanes at a time of. */
-    for (int i = 0; i < FF_TRACK_LANES; ++i)
-        out->a[i] = p->a[i] + f * (q->a[i] - p->a[i]);
-    for (int i = 0; i < FF_TRACK_LANES; ++i)
-        out->b[i] = p->b[i] + f * (q->b[i] - p->b[i]);
-    for (int i = 0; i < FF_TRACK_LANES; ++i)
-        out->y[i] = p->y[i] + f * (q->y[i] - p->y[i]);
+    ff_mix_lanes(p->a, q->a, f, out->a);
+    ff_mix_lanes(p->b, q->b, f, out->b);
+    ff_mix_lanes(p->y, q->y, f, out->y);
 }
 
 /* The root alone, and a radius about it that holds all colliders. */

@@ -89,6 +89,7 @@ typedef struct ff_stance {
     ff_knot tail; /* and at the last knot not after now */
     int32_t knot; /* its number */
     float moved;  /* m, the furthest that any collider moves from tail to end */
+    float about;  /* m, about the root at the tail, holds all colliders */
     /* who is near enough for any successor to meet */
     uint32_t near_count, mover_count;
     uint8_t near[FF_SIGHT_MAX], mover[FF_SIGHT_MOVING_MAX];

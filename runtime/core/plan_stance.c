@@ -113,11 +113,21 @@ static bool mover_near(const ff_sight_mover *m, int32_t from, int32_t to, float 
 /* Colliders in S0, in their place. */
 static void put(const ff_knot *local, const float anchor[2], float c, float s, ff_knot *restrict out)
 {
-    float a = anchor[0], b = anchor[1];
-    for (int i = 0; i < FF_TRACK_LANES; ++i)
-        out->a[i] = a + c * local->a[i] - s * local->b[i];
-    for (int i = 0; i < FF_TRACK_LANES; ++i)
-        out->b[i] = b + s * local->a[i] + c * local->b[i];
+#ifdef __SSE2__
+    const __m128 cosine = _mm_set1_ps(c), sine = _mm_set1_ps(s);
+    const __m128 at_a = _mm_set1_ps(anchor[0]), at_b = _mm_set1_ps(anchor[1]);
+    for (int i = 0; i <= FF_TRACK_LANES - 4; i += FF_TRACK_LANES - 4) { /* the middle ones twice */
+        __m128 a = _mm_loadu_ps(local->a + i), b = _mm_loadu_ps(local->b + i);
+        __m128 x = _mm_add_ps(at_a, _mm_mul_ps(cosine, a)), y = _mm_add_ps(at_b, _mm_mul_ps(sine, a));
+        _mm_storeu_ps(out->a + i, _mm_sub_ps(x, _mm_mul_ps(sine, b)));
+        _mm_storeu_ps(out->b + i, _mm_add_ps(y, _mm_mul_ps(cosine, b)));
+    }
+#else
+    for (int i = 0; i < FF_TRACK_LANES; ++i) {
+        out->a[i] = anchor[0] + c * local->a[i] - s * local->b[i];
+        out->b[i] = anchor[1] + s * local->a[i] + c * local->b[i];
+    }
+#endif
     memcpy(out->y, local->y, sizeof out->y);
 }
 
@@ -151,6 +161,7 @@ void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine
         st->tail = st->end;
     else
         place(set, a, st->other, begin_cosine, begin_sine, a->duration - since, &st->tail);
+    st->about = ff_knot_radius(&st->tail);
     st->moved = furthest(&st->end, &st->tail);
     float ra = st->end.a[FF_COLLIDER_ROOT], rb = st->end.b[FF_COLLIDER_ROOT];
     float reach = a->next_reach[sight->reactive] + sight->margin + st->moved;
@@ -196,7 +207,7 @@ static void begin_course(const ff_sight *sight, course *c)
     c->knots[0] = st->tail;
     c->root_a[0] = st->tail.a[FF_COLLIDER_ROOT];
     c->root_b[0] = st->tail.b[FF_COLLIDER_ROOT];
-    c->about[0] = ff_knot_radius(&st->tail);
+    c->about[0] = st->about;
     for (uint32_t k = 1; k < c->total; ++k) {
         float t = time_at(c, k), move[2];
         ff_set_root root = ff_set_root_at(sight->set, c->action, t);
