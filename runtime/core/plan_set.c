@@ -28,6 +28,7 @@ static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_act
     const ff_pack_collider *from = set->pack->colliders + r->first_collider;
     a->first_knot = set->knot_total;
     a->knots = r->collider_samples;
+    a->samples_per_s = (float)(a->knots - 1) / a->duration;
     set->knot_total += a->knots;
     ff_knot *to = set->samples + a->first_knot;
     float low_a = INFINITY, low_b = INFINITY, high_a = -INFINITY, high_b = -INFINITY;
@@ -103,6 +104,7 @@ static void take_variant(ff_action_set *set, uint32_t index, float pace)
     *a = set->actions[index];
     a->pace = pace;
     a->duration = duration_at(r, pace);
+    a->samples_per_s = (float)(a->knots - 1) / a->duration;
     a->cost = ff_action_cost(r, pace);
     ff_set_ends_pace(&set->ends[index], pace, a->duration, &set->ends[set->count]);
     a->variant_count = 0;
@@ -207,7 +209,6 @@ static void measure_next(ff_action_set *set)
     set->rate = (float)(2.0 * sqrt(FF_E_S * FF_E_W));
     for (uint32_t i = 0; i < set->count; ++i) {
         ff_set_action *a = &set->actions[i];
-        a->samples_per_s = (float)(a->knots - 1) / a->duration;
         for (uint32_t k = 0; k < a->next_count; ++k) {
             ff_set_next *next = &set->next[a->first_next + k];
             const ff_set_action *b = &set->actions[next->action];
