@@ -40,6 +40,7 @@ static bool track_fits(const ff_track *track)
     if (track->count < 1 || track->count > FF_TRACK_KNOTS_MAX) return false;
     if (track->first < -(int64_t)LONGEST || track->first > 10 * (int64_t)LONGEST) return false;
     if (!within(track->origin.a, LARGEST) || !within(track->origin.b, LARGEST)) return false;
+    if (!floats_fit(track->radii, FF_TRACK_LANES, 10.0)) return false;
     for (uint32_t i = 0; i < track->count; ++i) {
         const ff_knot *knot = &track->knots[i];
         if (!floats_fit(knot->a, FF_TRACK_LANES, FAR) || !floats_fit(knot->b, FF_TRACK_LANES, FAR) ||

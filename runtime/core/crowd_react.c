@@ -85,7 +85,7 @@ static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double t
             out.walkers = ff_min(out.walkers, when - time);
     }
     if (ff_solids_hit(world->solids, job->track.origin, 10.0, job->track.origin, job->track.knots,
-                      job->track.count, 0.0))
+                      job->track.count, job->track.radii, 0.0))
         out.surprise = ff_min(out.surprise, out.stand);
     for (uint32_t i = 0; i < world->track_count; ++i)
         if (ff_track_conflict(&job->track, world->tracks[i], time, 0.0, &when))

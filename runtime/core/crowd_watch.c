@@ -13,7 +13,8 @@ bool ff_track_meets(const ff_track *track, double from, double seconds, const ff
         int64_t i = k - track->first, end = (int64_t)track->count - 1;
         int64_t now = i < 0 ? 0 : (i > end ? end : i), next = i < 0 ? 0 : (i + 1 > end ? end : i + 1);
         solid.centre = ff_madd2(shape->centre, velocity, (double)k * FF_TRACK_STEP - from);
-        if (!ff_solid_hit(&solid, moved, track->origin, &track->knots[now], &track->knots[next], margin))
+        if (!ff_solid_hit(&solid, moved, track->origin, &track->knots[now], &track->knots[next], track->radii,
+                          margin))
             continue;
         if (when) *when = ff_max((double)k * FF_TRACK_STEP, from);
         return true;

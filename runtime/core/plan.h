@@ -98,7 +98,7 @@ void ff_plan_colliders(const ff_action_set *set, const ff_plan *plan, double tim
 enum { FF_TRACK_KNOTS_MAX = 160, FF_TRACK_LANES = FF_COLLIDER_COUNT, FF_TRACK_CHUNK = 4 };
 enum { FF_TRACK_ROOMS = FF_TRACK_KNOTS_MAX / FF_TRACK_CHUNK + 1 };
 
-/* Horizontal radii of the colliders, m (algorithms A.9; root: footstep study, section 2). */
+/* Horizontal radii of the colliders, m, of a pack that does not say its own (algorithms A.9; root: footstep study, section 2). */
 extern const float ff_collider_radius[FF_COLLIDER_COUNT];
 /* Heights between which a collider at height y is solid. */
 void ff_collider_extent(uint32_t collider, float y, float *low, float *high);
@@ -126,6 +126,7 @@ typedef struct ff_track {
     int64_t first;  /* number of the first knot */
     uint32_t count; /* >= 1; before the first and after the last knot all stays as it is there */
     uint32_t reserved;
+    float radii[FF_TRACK_LANES];        /* m, of the colliders */
     ff_track_room room[FF_TRACK_ROOMS]; /* of the first knot's chunk and those after it */
     float radius[FF_TRACK_KNOTS_MAX];   /* about the root, holds all colliders */
     ff_knot knots[FF_TRACK_KNOTS_MAX];

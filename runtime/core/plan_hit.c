@@ -6,34 +6,35 @@
 #include <emmintrin.h>
 #endif
 
-ff_limits ff_limits_of(float margin)
+ff_limits ff_limits_of(const float *mine, const float *theirs, float margin)
 {
     ff_limits limits;
     for (int i = 0; i < FF_COLLIDER_COUNT; ++i)
         for (int k = 0; k < FF_TRACK_LANES; ++k) {
-            float near = ff_collider_radius[i] + ff_collider_radius[k] + margin;
+            float near = mine[i] + theirs[k] + margin;
             limits.squared[i][k] = near > 0.0f ? near * near : -1.0f;
         }
     for (int k = 0; k < FF_TRACK_LANES; ++k)
-        limits.reach[k] = ff_collider_radius[k] + margin + SLACK;
+        limits.reach[k] = fmaxf(mine[k], theirs[k]) + margin + SLACK;
     return limits;
 }
 
-float ff_knot_radius(const ff_knot *knot)
+float ff_knot_radius(const ff_knot *knot, const float *radii)
 {
     float square[FF_TRACK_LANES], a = knot->a[FF_COLLIDER_ROOT], b = knot->b[FF_COLLIDER_ROOT];
     for (int i = 0; i < FF_TRACK_LANES; ++i) {
         float da = knot->a[i] - a, db = knot->b[i] - b;
         square[i] = da * da + db * db;
     }
-    /* Of those of one radius, the furthest: head, hands, feet. */
+    /* Of each kind the furthest: head, hands, feet. */
     float hand = square[1] > square[2] ? square[1] : square[2];
     float foot = square[3] > square[4] ? square[3] : square[4];
-    float most = sqrtf(square[0]) + ff_collider_radius[0];
-    float by_hand = sqrtf(hand) + ff_collider_radius[1], by_foot = sqrtf(foot) + ff_collider_radius[3];
+    float most = sqrtf(square[0]) + radii[0];
+    float by_hand = sqrtf(hand) + fmaxf(radii[1], radii[2]),
+          by_foot = sqrtf(foot) + fmaxf(radii[3], radii[4]);
     most = by_hand > most ? by_hand : most;
     most = by_foot > most ? by_foot : most;
-    return most > ff_collider_radius[FF_COLLIDER_ROOT] ? most : ff_collider_radius[FF_COLLIDER_ROOT];
+    return fmaxf(most, radii[FF_COLLIDER_ROOT]);
 }
 
 /* Bit k: collider i of mine and k of theirs come nearer than their limit; *within (if that is asked for) gets the same for reach + radius. */

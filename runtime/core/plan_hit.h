@@ -10,10 +10,10 @@ typedef struct ff_limits {
     float reach
         [FF_TRACK_LANES]; /* m, not squared: of each, with the margin, to something of no size; a little more */
 } ff_limits;
-ff_limits ff_limits_of(float margin);
+ff_limits ff_limits_of(const float *mine, const float *theirs, float margin);
 
 /* About the root, holds all colliders with their radii. */
-float ff_knot_radius(const ff_knot *knot);
+float ff_knot_radius(const ff_knot *knot, const float *radii);
 
 /* Smallest squared length of p + t d for t in [0, 1]. */
 static inline float ff_nearest_pass(float pa, float pb, float da, float db)

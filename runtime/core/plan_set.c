@@ -42,15 +42,15 @@ static void take_samples(ff_action_set *set, ff_set_action *a, const ff_pack_act
             low_b = fminf(low_b, p->b), high_b = fmaxf(high_b, p->b);
         }
     for (uint32_t k = 0; k < a->knots; ++k)
-        set->roots[a->first_knot + k] =
-            (ff_set_root){to[k].a[FF_COLLIDER_ROOT], to[k].b[FF_COLLIDER_ROOT], ff_knot_radius(&to[k])};
+        set->roots[a->first_knot + k] = (ff_set_root){to[k].a[FF_COLLIDER_ROOT], to[k].b[FF_COLLIDER_ROOT],
+                                                      ff_knot_radius(&to[k], set->radii)};
     a->circle[0] = 0.5f * (low_a + high_a);
     a->circle[1] = 0.5f * (low_b + high_b);
     float most = 0.0f;
     for (uint32_t k = 0; k < a->knots; ++k)
         for (uint32_t c = 0; c < FF_COLLIDER_COUNT; ++c) {
             float da = to[k].a[c] - a->circle[0], db = to[k].b[c] - a->circle[1];
-            most = fmaxf(most, sqrtf(da * da + db * db) + ff_collider_radius[c]);
+            most = fmaxf(most, sqrtf(da * da + db * db) + set->radii[c]);
         }
     a->circle[2] = most;
 }
@@ -372,6 +372,7 @@ ff_status ff_action_set_create_varied(const ff_pack *pack, uint32_t cap, const d
     else {
         set->pack = pack;
         set->reach = pack->reach;
+        set->radii = pack->collider_radii ? pack->collider_radii : ff_collider_radius;
         for (uint32_t i = 0; i < pack->action_count; ++i)
             from.usable[i] = ff_action_is_usable(&pack->actions[i]);
         if (ff_set_select(pack, cap, from.usable, from.chosen, &from.stand) == 0)

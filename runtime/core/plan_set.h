@@ -85,6 +85,7 @@ typedef struct ff_set_root {
 struct ff_action_set {
     const ff_pack *pack;
     const ff_pack_reach *reach; /* NULL when some action has no table */
+    const float *radii;         /* [FF_COLLIDER_COUNT] m */
     uint32_t count, stand;
     ff_set_action *actions;
     ff_set_ends *ends; /* [count] */

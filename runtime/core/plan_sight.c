@@ -193,8 +193,8 @@ void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const f
     out->lead = time - (double)out->first_knot * FF_TRACK_STEP;
     out->margin = (float)options->margin;
     out->stand_margin = (float)(options->margin + options->stand_margin);
-    out->limits = ff_limits_of(out->margin);
-    out->stand_limits = ff_limits_of(out->stand_margin);
+    out->limits = ff_limits_of(set->radii, set->radii, out->margin);
+    out->stand_limits = ff_limits_of(set->radii, set->radii, out->stand_margin);
     out->reactive = options->reactive != 0;
     out->cost = (float)options->proximity_cost;
     out->cost_within = (float)options->proximity;

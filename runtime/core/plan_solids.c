@@ -92,7 +92,7 @@ static double reach_at(const ff_solid *solid, double low, double high)
 }
 
 bool ff_solid_hit(const ff_solid *solid, ff_vec2 moved, ff_vec2 origin, const ff_knot *x0, const ff_knot *x1,
-                  double margin)
+                  const float *radii, double margin)
 {
     for (uint32_t i = 0; i < FF_COLLIDER_COUNT; ++i) {
         float low[2], high[2];
@@ -101,7 +101,7 @@ bool ff_solid_hit(const ff_solid *solid, ff_vec2 moved, ff_vec2 origin, const ff
         double reach =
             reach_at(solid, ff_min((double)low[0], (double)low[1]), ff_max((double)high[0], (double)high[1]));
         if (reach < 0.0) continue;
-        reach += (double)ff_collider_radius[i] + margin;
+        reach += (double)radii[i] + margin;
         ff_vec2 p = ff_add2(origin, ff_v2((double)x0->a[i], (double)x0->b[i]));
         ff_vec2 q = ff_sub2(ff_add2(origin, ff_v2((double)x1->a[i], (double)x1->b[i])), moved);
         if (ff_solid_distance2(solid, p, q) <= reach * reach) return true;
@@ -226,6 +226,7 @@ typedef struct course {
     ff_vec2 origin;
     const ff_knot *knots;
     uint32_t count;
+    const float *radii;
     double margin;
 } course;
 
@@ -233,15 +234,17 @@ static bool course_hits(const ff_solid *solid, const void *context)
 {
     const course *c = context;
     for (uint32_t k = 0; k + 1 < c->count; ++k)
-        if (ff_solid_hit(solid, ff_v2(0.0, 0.0), c->origin, &c->knots[k], &c->knots[k + 1], c->margin))
+        if (ff_solid_hit(solid, ff_v2(0.0, 0.0), c->origin, &c->knots[k], &c->knots[k + 1], c->radii,
+                         c->margin))
             return true;
     return false;
 }
 
 bool ff_solids_hit(const ff_solids *solids, ff_vec2 centre, double radius, ff_vec2 origin,
-                   const ff_knot *knots, uint32_t count, double margin)
+                   const ff_knot *knots, uint32_t count, const float *radii, double margin)
 {
-    return go_through(solids, centre, radius + margin, course_hits, &(course){origin, knots, count, margin});
+    return go_through(solids, centre, radius + margin, course_hits,
+                      &(course){origin, knots, count, radii, margin});
 }
 
 uint32_t ff_waypoint_seen(const ff_solids *solids, const ff_vec2 *points, uint32_t count, uint32_t next,

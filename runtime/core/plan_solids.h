@@ -19,10 +19,10 @@ ff_solid ff_solid_of_wall(ff_vec2 from, ff_vec2 to);
 /* Squared distance of the segment from p to q to the footprint without its radius; 0 when they meet. */
 double ff_solid_distance2(const ff_solid *solid, ff_vec2 p, ff_vec2 q);
 
-/* Do the colliders, moving straight from x0 to x1 (knots about origin), come nearer than margin to a solid that moves from
+/* Do the colliders, moving straight from x0 to x1 (knots about origin), come nearer than their radii and margin to a solid that moves from
  * where it is by `moved` meanwhile? */
 bool ff_solid_hit(const ff_solid *solid, ff_vec2 moved, ff_vec2 origin, const ff_knot *x0, const ff_knot *x1,
-                  double margin);
+                  const float *radii, double margin);
 
 struct ff_solids {
     ff_solid *items;
@@ -39,6 +39,6 @@ bool ff_solids_near(const ff_solids *solids, ff_vec2 p, double radius);
 
 /* Do colliders that move along knots[0 .. count - 1] about origin touch any? They stay within radius of centre. */
 bool ff_solids_hit(const ff_solids *solids, ff_vec2 centre, double radius, ff_vec2 origin,
-                   const ff_knot *knots, uint32_t count, double margin);
+                   const ff_knot *knots, uint32_t count, const float *radii, double margin);
 
 #endif

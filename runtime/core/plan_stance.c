@@ -81,7 +81,7 @@ static ff_vec2 sight_mover_at(const ff_sight_mover *m, int32_t knot)
 
 /* Do the colliders, from p at a knot to q at the next one, meet it? */
 static bool meets_mover(const ff_sight_mover *m, int32_t knot, const ff_knot *p, const ff_knot *q,
-                        double margin)
+                        const float *radii, double margin)
 {
     if (m->gone && knot >= (int32_t)m->known) return false;
     ff_vec2 from = sight_mover_at(m, knot), to = sight_mover_at(m, knot + 1);
@@ -89,7 +89,7 @@ static bool meets_mover(const ff_sight_mover *m, int32_t knot, const ff_knot *p,
     solid.centre = from;
     uint32_t k = knot < 0 ? 0 : (uint32_t)knot;
     double slack = k < FF_TRACK_KNOTS_MAX ? (double)m->slack[k] : 0.0;
-    return ff_solid_hit(&solid, ff_sub2(to, from), ff_v2(0.0, 0.0), p, q,
+    return ff_solid_hit(&solid, ff_sub2(to, from), ff_v2(0.0, 0.0), p, q, radii,
                         margin + slack + m->grow * (double)k);
 }
 
@@ -161,7 +161,7 @@ void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine
         st->tail = st->end;
     else
         place(set, a, st->other, begin_cosine, begin_sine, a->duration - since, &st->tail);
-    st->about = ff_knot_radius(&st->tail);
+    st->about = ff_knot_radius(&st->tail, set->radii);
     st->moved = furthest(&st->end, &st->tail);
     float ra = st->end.a[FF_COLLIDER_ROOT], rb = st->end.b[FF_COLLIDER_ROOT];
     float reach = a->next_reach[sight->reactive] + sight->margin + st->moved;
@@ -397,15 +397,19 @@ static bool meets_things(const ff_sight *sight, course *c)
     if (st->mover_count == 0 && !st->solids) return false;
     make_course(sight, c);
     ff_vec2 centre = ff_add2(sight->origin, ff_v2((double)c->a, (double)c->b));
-    if (st->solids &&
-        ff_solids_hit(sight->solids, centre, (double)c->radius, sight->origin, c->knots, c->total, margin))
+    if (st->solids && ff_solids_hit(sight->solids, centre, (double)c->radius, sight->origin, c->knots,
+                                    c->total, sight->set->radii, margin))
         return true;
     for (uint32_t k = 0; k + 1 < c->total; ++k) {
         const ff_knot *p = &c->knots[k], *q = p + 1;
         for (uint32_t i = 0; i < sight->shape_count; ++i)
-            if (ff_solid_hit(&sight->shape[i], ff_v2(0.0, 0.0), sight->origin, p, q, margin)) return true;
+            if (ff_solid_hit(&sight->shape[i], ff_v2(0.0, 0.0), sight->origin, p, q, sight->set->radii,
+                             margin))
+                return true;
         for (uint32_t i = 0; i < st->mover_count; ++i)
-            if (meets_mover(&sight->mover[st->mover[i]], st->knot + (int32_t)k, p, q, margin)) return true;
+            if (meets_mover(&sight->mover[st->mover[i]], st->knot + (int32_t)k, p, q, sight->set->radii,
+                            margin))
+                return true;
     }
     return false;
 }
@@ -414,7 +418,7 @@ static bool meets_things(const ff_sight *sight, course *c)
 static float proximity_cost(const ff_sight *sight, course *c)
 {
     const ff_stance *st = c->stance;
-    float sum = 0.0f, within = sight->cost_within + 2.0f * ff_collider_radius[FF_COLLIDER_ROOT];
+    float sum = 0.0f, within = sight->cost_within + 2.0f * sight->set->radii[FF_COLLIDER_ROOT];
     if (st->near_count > 0) make_course(sight, c);
     for (uint32_t i = 0; i < st->near_count; ++i) {
         const ff_sight_track *seen = &sight->seen[st->near[i]];
@@ -488,7 +492,9 @@ bool ff_stance_waits(ff_sight *sight, const ff_stance *st, float seconds)
     const ff_limits *limits = ever ? &sight->stand_limits : &sight->limits;
     int32_t last = ever ? FF_TRACK_KNOTS_MAX - 1 : (int32_t)((st->time + seconds) / (float)FF_TRACK_STEP);
     float ra = st->end.a[FF_COLLIDER_ROOT], rb = st->end.b[FF_COLLIDER_ROOT];
-    float r0 = ff_knot_radius(&st->tail), r1 = ff_knot_radius(&st->end), radius = r0 > r1 ? r0 : r1;
+    const float *radii = sight->set->radii;
+    float r0 = ff_knot_radius(&st->tail, radii), r1 = ff_knot_radius(&st->end, radii),
+          radius = r0 > r1 ? r0 : r1;
     uint8_t near[FF_SIGHT_MAX];
     uint32_t count = list_near(sight, ff_sight_chunk(sight, st->knot), ff_sight_chunk(sight, last), ra, rb,
                                radius + st->moved + margin, near);
@@ -496,16 +502,16 @@ bool ff_stance_waits(ff_sight *sight, const ff_stance *st, float seconds)
         if (stands_in_way(&sight->seen[near[i]], st, last, ever, radius, margin, limits)) return false;
     const ff_knot stands[2] = {st->tail, st->end};
     ff_vec2 centre = ff_add2(sight->origin, ff_v2((double)ra, (double)rb));
-    if (ff_solids_hit(sight->solids, centre, (double)(radius + st->moved), sight->origin, stands, 2,
+    if (ff_solids_hit(sight->solids, centre, (double)(radius + st->moved), sight->origin, stands, 2, radii,
                       (double)sight->margin))
         return false;
     for (uint32_t i = 0; i < sight->shape_count; ++i)
-        if (ff_solid_hit(&sight->shape[i], ff_v2(0.0, 0.0), sight->origin, &stands[0], &stands[1],
+        if (ff_solid_hit(&sight->shape[i], ff_v2(0.0, 0.0), sight->origin, &stands[0], &stands[1], radii,
                          (double)sight->margin))
             return false;
     for (uint32_t i = 0; i < sight->mover_count; ++i)
         for (int32_t k = st->knot; k < (ever ? stands_until(&sight->mover[i], st, last) : last); ++k)
-            if (meets_mover(&sight->mover[i], k, k == st->knot ? &st->tail : &st->end, &st->end,
+            if (meets_mover(&sight->mover[i], k, k == st->knot ? &st->tail : &st->end, &st->end, radii,
                             (double)sight->margin))
                 return false;
     return true;

@@ -163,6 +163,7 @@ void ff_plan_track(const ff_action_set *set, const ff_plan *plan, double from, f
     memset(out, 0, sizeof *out);
     out->origin = plan->steps[ff_plan_step_at(plan, from)].anchor;
     out->first = (int64_t)floor(from / FF_TRACK_STEP);
+    memcpy(out->radii, set->radii, sizeof out->radii);
     double stands = plan->steps[plan->count - 1].start;
     uint32_t step = 0;
     do {
@@ -177,7 +178,7 @@ void ff_plan_track(const ff_action_set *set, const ff_plan *plan, double from, f
             knot->b[i] = (float)(at.b[i] - out->origin.b);
             knot->y[i] = (float)at.y[i];
         }
-        out->radius[out->count++] = ff_knot_radius(knot);
+        out->radius[out->count++] = ff_knot_radius(knot, set->radii);
         if (time >= stands) break;
     } while (out->count < FF_TRACK_KNOTS_MAX);
     find_rooms(out);
@@ -206,7 +207,7 @@ static bool rooms_near(const ff_track *x, const ff_track *y, int64_t knot, ff_ve
 
 bool ff_track_conflict(const ff_track *x, const ff_track *y, double from, double margin, double *when)
 {
-    ff_limits limits = ff_limits_of((float)margin);
+    ff_limits limits = ff_limits_of(x->radii, y->radii, (float)margin);
     ff_vec2 apart = ff_sub2(y->origin, x->origin);
     int64_t last_x = x->first + (int64_t)x->count - 1, last_y = y->first + (int64_t)y->count - 1;
     int64_t last = last_x > last_y ? last_x : last_y;

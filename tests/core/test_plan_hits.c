@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "tests/core/plan_world.h"
 
+#include "runtime/core/crowd_footsteps.h"
 #include "runtime/core/plan_body.h"
 #include "runtime/core/plan_hit.h"
 
@@ -67,13 +68,14 @@ static void colliders_that_pass_are_seen_between_the_moments(void **state)
         ff_vec2 apart = ff_v2(between(-0.5, 0.5, &random), between(-1.5, 1.5, &random));
         double margin = n % 2 ? 0.05 : 0.0, gap = smallest_gap(&x0, &x1, &y0, &y1, apart);
         if (fabs(gap - margin) < 2e-3) continue;
-        ff_limits limits = ff_limits_of((float)margin);
+        ff_limits limits = ff_limits_of(ff_collider_radius, ff_collider_radius, (float)margin);
         bool hit = ff_knots_hit(&x0, &x1, &y0, &y1, (float)apart.a, (float)apart.b, &limits);
         assert_int_equal(hit, gap < margin);
         /* The other way round it is the same. */
         assert_int_equal(hit, ff_knots_hit(&y0, &y1, &x0, &x1, (float)-apart.a, (float)-apart.b, &limits));
         float reach =
-            fmaxf(ff_knot_radius(&x0), ff_knot_radius(&x1)) + fmaxf(ff_knot_radius(&y0), ff_knot_radius(&y1));
+            fmaxf(ff_knot_radius(&x0, ff_collider_radius), ff_knot_radius(&x1, ff_collider_radius)) +
+            fmaxf(ff_knot_radius(&y0, ff_collider_radius), ff_knot_radius(&y1, ff_collider_radius));
         if (hit)
             assert_true(
                 ff_roots_near(&x0, &x1, &y0, &y1, (float)apart.a, (float)apart.b, reach + (float)margin));
@@ -135,19 +137,19 @@ static void heights_and_round_tops_count(void **state)
     ff_shape box = {
         .centre = ff_v2(1.0, 0.0), .half_length = 0.2, .half_width = 0.2, .low = 1.3, .high = 1.6};
     ff_solid bar = ff_solid_of_shape(&box);
-    assert_true(ff_solid_hit(&bar, none, none, &tall, &tall, 0.0));
-    assert_false(ff_solid_hit(&bar, none, none, &small, &small, 0.0));
-    assert_true(ff_solid_hit(&bar, none, none, &tall, &small, 0.0)); /* on the way down */
+    assert_true(ff_solid_hit(&bar, none, none, &tall, &tall, ff_collider_radius, 0.0));
+    assert_false(ff_solid_hit(&bar, none, none, &small, &small, ff_collider_radius, 0.0));
+    assert_true(ff_solid_hit(&bar, none, none, &tall, &small, ff_collider_radius, 0.0)); /* on the way down */
     /* A ball of 0.5 m whose middle is at 1.0 m: at 1.4 m above it, sqrt(0.25 - 0.16) = 0.3 m wide. */
     ff_shape ball = {.centre = none, .radius = 0.5, .low = 0.5, .high = 1.5, .round = 1};
     ff_solid globe = ff_solid_of_shape(&ball);
     ff_knot over = head_at(0.43, 1.55), beside = head_at(0.41, 1.55); /* lowest at 1.40; radius 0.12 */
-    assert_false(ff_solid_hit(&globe, none, none, &over, &over, 0.0));
-    assert_true(ff_solid_hit(&globe, none, none, &beside, &beside, 0.0));
+    assert_false(ff_solid_hit(&globe, none, none, &over, &over, ff_collider_radius, 0.0));
+    assert_true(ff_solid_hit(&globe, none, none, &beside, &beside, ff_collider_radius, 0.0));
     /* One that comes along meets who stands. */
     ff_solid disc = ff_solid_of_shape(&(ff_shape){.centre = ff_v2(1.0, -3.0), .radius = 0.1, .high = 2.0});
-    assert_false(ff_solid_hit(&disc, none, none, &tall, &tall, 0.0));
-    assert_true(ff_solid_hit(&disc, ff_v2(0.0, 6.0), none, &tall, &tall, 0.0));
+    assert_false(ff_solid_hit(&disc, none, none, &tall, &tall, ff_collider_radius, 0.0));
+    assert_true(ff_solid_hit(&disc, ff_v2(0.0, 6.0), none, &tall, &tall, ff_collider_radius, 0.0));
 }
 
 /* The track of a plan in words of its definition. */
@@ -229,6 +231,31 @@ static void two_tracks_conflict_exactly_where_they_touch(void **state)
     }
     printf("  %d pairs met, %d did not\n", conflicts, free_ones);
     assert_true(conflicts >= 10 && free_ones >= 10);
+}
+
+/* A character with a large head, by the pack's own measure of its skin, is kept from others and walls by it. */
+static void the_packs_own_radii_count(void **state)
+{
+    const plan_world *w = *state;
+    const float large[FF_COLLIDER_COUNT] = {0.5f, 0.08f, 0.08f, 0.11f, 0.11f, 0.18f};
+    ff_pack dressed = *w->pack;
+    dressed.collider_radii = large;
+    ff_action_set *set;
+    ff_error error;
+    FF_ASSERT_OK(ff_action_set_create(&dressed, 24, &set, &error), error);
+    for (int big = 0; big < 2; ++big) {
+        const ff_action_set *of = big ? set : w->few;
+        ff_plan plan[2];
+        ff_track track[2];
+        for (int i = 0; i < 2; ++i) {
+            ff_plan_stand(of, ff_v2(0.9 * i, 0.0), 0.0, 0.0, &plan[i]);
+            ff_plan_track(of, &plan[i], 0.0, &track[i]);
+        }
+        assert_int_equal(ff_track_conflict(&track[0], &track[1], 0.0, 0.0, NULL), big);
+        const ff_shape post = {.centre = {-0.5, 0.0}, .radius = 0.05, .high = 2.0};
+        assert_int_equal(ff_track_meets(&track[0], 0.0, 1.0, &post, ff_v2(0.0, 0.0), 0.0, NULL), big);
+    }
+    ff_action_set_destroy(set);
 }
 
 static void jumps_and_ducks_are_thought_of_only_when_asked_for(void **state)
@@ -347,6 +374,7 @@ int main(void)
         cmocka_unit_test(bodies_of_capsules_are_where_their_colliders_are),
         cmocka_unit_test(bodies_that_stand_are_as_far_apart_as_they_should),
         cmocka_unit_test(plans_that_are_free_keep_bodies_apart),
+        cmocka_unit_test(the_packs_own_radii_count),
         cmocka_unit_test(jumps_and_ducks_are_thought_of_only_when_asked_for),
     };
     return cmocka_run_group_tests(tests, plan_world_open, plan_world_close);
