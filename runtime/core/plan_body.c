@@ -28,6 +28,23 @@ static ff_status pose_at(const ff_action_set *set, const ff_plan *plan, double t
     return ff_pack_sample(pack, clip->stream, at, flags, NULL, hips, rotations, error);
 }
 
+void ff_body_capsules(const ff_pack *pack, const ff_vec3 at[FF_JOINT_COUNT],
+                      const ff_quat turned[FF_JOINT_COUNT], ff_body_capsule out[FF_BODY_CAPSULES])
+{
+    int n = 0;
+    for (int j = 1; j < FF_JOINT_COUNT; ++j) {
+        int parent = pack->joints[j].parent;
+        out[n++] = (ff_body_capsule){at[parent], at[j], (double)pack->joints[parent].radius};
+    }
+    for (uint32_t p = 0; p < pack->point_count && pack->points[p].kind <= FF_POINT_TOE_R; ++p) {
+        const ff_pack_point *point = &pack->points[p];
+        ff_vec3 tip = ff_v3((double)point->offset[0], (double)point->offset[1], (double)point->offset[2]);
+        out[n++] = (ff_body_capsule){at[point->joint],
+                                     ff_add3(at[point->joint], ff_quat_rotate(turned[point->joint], tip)),
+                                     (double)pack->joints[point->joint].radius};
+    }
+}
+
 ff_status ff_plan_body_at(const ff_action_set *set, const ff_plan *plan, double time,
                           ff_body_capsule out[FF_BODY_CAPSULES], ff_error *error)
 {
@@ -39,22 +56,14 @@ ff_status ff_plan_body_at(const ff_action_set *set, const ff_plan *plan, double 
     if (status != FF_OK) return status;
     ff_root_place(&root, &at[0], &local[0]);
     turned[0] = local[0];
-    int n = 0;
     for (int j = 1; j < FF_JOINT_COUNT; ++j) {
         int parent = pack->joints[j].parent;
         const float *offset = pack->joints[j].offset;
         ff_vec3 bone = ff_v3((double)offset[0], (double)offset[1], (double)offset[2]);
         at[j] = ff_add3(at[parent], ff_quat_rotate(turned[parent], bone));
         turned[j] = ff_quat_mul(turned[parent], local[j]);
-        out[n++] = (ff_body_capsule){at[parent], at[j], (double)pack->joints[parent].radius};
     }
-    for (uint32_t p = 0; p < pack->point_count && pack->points[p].kind <= FF_POINT_TOE_R; ++p) {
-        const ff_pack_point *point = &pack->points[p];
-        ff_vec3 tip = ff_v3((double)point->offset[0], (double)point->offset[1], (double)point->offset[2]);
-        out[n++] = (ff_body_capsule){at[point->joint],
-                                     ff_add3(at[point->joint], ff_quat_rotate(turned[point->joint], tip)),
-                                     (double)pack->joints[point->joint].radius};
-    }
+    ff_body_capsules(pack, at, turned, out);
     return FF_OK;
 }
 
@@ -75,7 +84,7 @@ static double segment_distance(ff_vec3 p, ff_vec3 p_end, ff_vec3 q, ff_vec3 q_en
     return ff_length3(ff_sub3(ff_madd3(p, d, s), ff_madd3(q, e, t)));
 }
 
-static double bodies_gap(const ff_body_capsule *x, const ff_body_capsule *y)
+double ff_bodies_gap(const ff_body_capsule x[FF_BODY_CAPSULES], const ff_body_capsule y[FF_BODY_CAPSULES])
 {
     double least = INFINITY;
     for (int i = 0; i < FF_BODY_CAPSULES; ++i)
@@ -98,7 +107,7 @@ ff_status ff_plan_bodies_gap(const ff_action_set *set, const ff_plan *x, const f
             ff_status status = ff_plan_body_at(set, x, time, mine, error);
             if (status == FF_OK) status = ff_plan_body_at(set, y, time, theirs, error);
             if (status != FF_OK) return status;
-            apart = bodies_gap(mine, theirs);
+            apart = ff_bodies_gap(mine, theirs);
         }
         if (apart < *gap) {
             *gap = apart;

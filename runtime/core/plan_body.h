@@ -13,6 +13,13 @@ typedef struct ff_body_capsule {
     double radius;
 } ff_body_capsule;
 
+/* A body whose joints are at these places and turned so, in the world. */
+void ff_body_capsules(const ff_pack *pack, const ff_vec3 at[FF_JOINT_COUNT],
+                      const ff_quat turned[FF_JOINT_COUNT], ff_body_capsule out[FF_BODY_CAPSULES]);
+
+/* m between two bodies; negative: how deep they are in each other. */
+double ff_bodies_gap(const ff_body_capsule x[FF_BODY_CAPSULES], const ff_body_capsule y[FF_BODY_CAPSULES]);
+
 /* The body of a plan's owner at a time. The joins of actions move it as they move the root. */
 ff_status ff_plan_body_at(const ff_action_set *set, const ff_plan *plan, double time,
                           ff_body_capsule out[FF_BODY_CAPSULES], ff_error *error);

@@ -1,6 +1,7 @@
 /* bench_fig10.c - `footfall-crowd bench fig10`: how bodies get past each other on footsteps, with little time to plan (footstep
  * planning paper, Figures 1 and 10), on a circle and crossing at random; by our planner and by the paper's formulation. */
 #include "runtime/core/base/file.h"
+#include "runtime/core/base/tasks.h"
 #include "runtime/export/text.h"
 #include "runtime/program/bench.h"
 #include "runtime/program/bench_options.h"
@@ -14,6 +15,7 @@
 #define STEP (1.0 / 60.0)
 #define TINY_NODES 20
 #define NODES_MOST 20000
+#define SIDE_BY_SIDE 64
 
 typedef struct contact_row {
     const char *scene, *method;
@@ -24,17 +26,71 @@ typedef struct contact_row {
     /* over all runs */
     int64_t runs, touched;
     double overlap, agent_seconds, deepest, speed, arrived, last;
+    int64_t bodies_touched; /* the same of whole bodies */
+    double body_overlap, body_deepest;
 } contact_row;
 
 static const contact_row rows[] = {
-    {"four", "ours", FF_WALK_FOUR, 4, NODES_MOST, 1.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"four", "ours", FF_WALK_FOUR, 4, 300, 0.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"four", "paper", FF_WALK_FOUR, 4, NODES_MOST, 1.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"four", "paper", FF_WALK_FOUR, 4, TINY_NODES, 0.0, 12.0, 0.0, 1, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"circle", "ours", FF_WALK_CIRCLE, 40, 300, 0.0, 40.0, 0.0, 20, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"circle", "paper", FF_WALK_CIRCLE, 40, 300, 0.0, 40.0, 0.0, 20, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"crossing", "ours", FF_WALK_CROSSING, 200, 300, 0.0, 20.0, 0.1, 20, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"crossing", "paper", FF_WALK_CROSSING, 200, 300, 0.0, 20.0, 0.1, 20, 0, 0, 0, 0, 0, 0, 0, 0},
+    {.scene = "four",
+     .method = "ours",
+     .kind = FF_WALK_FOUR,
+     .agents = 4,
+     .nodes = NODES_MOST,
+     .budget_ms = 1.0,
+     .seconds = 12.0,
+     .share = 1},
+    {.scene = "four",
+     .method = "ours",
+     .kind = FF_WALK_FOUR,
+     .agents = 4,
+     .nodes = 300,
+     .seconds = 12.0,
+     .share = 1},
+    {.scene = "four",
+     .method = "paper",
+     .kind = FF_WALK_FOUR,
+     .agents = 4,
+     .nodes = NODES_MOST,
+     .budget_ms = 1.0,
+     .seconds = 12.0,
+     .share = 1},
+    {.scene = "four",
+     .method = "paper",
+     .kind = FF_WALK_FOUR,
+     .agents = 4,
+     .nodes = TINY_NODES,
+     .seconds = 12.0,
+     .share = 1},
+    {.scene = "circle",
+     .method = "ours",
+     .kind = FF_WALK_CIRCLE,
+     .agents = 40,
+     .nodes = 300,
+     .seconds = 40.0,
+     .share = 20},
+    {.scene = "circle",
+     .method = "paper",
+     .kind = FF_WALK_CIRCLE,
+     .agents = 40,
+     .nodes = 300,
+     .seconds = 40.0,
+     .share = 20},
+    {.scene = "crossing",
+     .method = "ours",
+     .kind = FF_WALK_CROSSING,
+     .agents = 200,
+     .nodes = 300,
+     .seconds = 20.0,
+     .density = 0.1,
+     .share = 20},
+    {.scene = "crossing",
+     .method = "paper",
+     .kind = FF_WALK_CROSSING,
+     .agents = 200,
+     .nodes = 300,
+     .seconds = 20.0,
+     .density = 0.1,
+     .share = 20},
 };
 enum { ROWS = sizeof rows / sizeof rows[0], SHOTS = 3 };
 
@@ -43,6 +99,7 @@ typedef struct contacts {
     const ff_pack *pack;
     const ff_figure *figure;
     const char *speeds; /* or NULL: factors, between commas, at which walking steps are there, too */
+    ff_tasks *tasks;
     contact_row row[ROWS];
     int count;
 } contacts;
@@ -65,12 +122,13 @@ static ff_walk_trial trial_of(const contacts *all, const contact_row *row, int64
 {
     ff_walk_trial trial = {.scene = row->kind,
                            .agents = row->agents,
-                           .threads = (uint32_t)all->options->threads,
+                           .threads = 1,
                            .density = row->density,
                            .seconds = row->seconds,
                            .step = STEP,
                            .seed = (uint64_t)seed,
                            .planner = FF_PLANNER_FOOTSTEPS,
+                           .bodies = true,
                            .footsteps = ff_crowd_def_default().footsteps};
     trial.footsteps.paper = row->method[0] == 'p';
     trial.footsteps.nodes = row->nodes;
@@ -85,26 +143,60 @@ static int64_t runs_of(const contacts *all, const contact_row *row)
     return runs > 0 ? runs : 1;
 }
 
+/* Runs side by side, one a thread. */
+typedef struct batch {
+    const contacts *all;
+    const contact_row *row;
+    int64_t first_seed;
+    ff_walk_measures measures[SIDE_BY_SIDE];
+    ff_status status[SIDE_BY_SIDE];
+    ff_error error[SIDE_BY_SIDE];
+} batch;
+
+static void run_one(void *context, uint32_t index)
+{
+    batch *b = context;
+    ff_walk_trial trial = trial_of(b->all, b->row, b->first_seed + index);
+    b->status[index] =
+        ff_walk_trial_run(b->all->pack, b->all->figure, &trial, &b->measures[index], &b->error[index]);
+}
+
+static void add_run(contact_row *row, const ff_walk_measures *m)
+{
+    ++row->runs;
+    row->touched += m->deepest > 0.0;
+    row->overlap += m->overlap * m->agent_seconds;
+    row->agent_seconds += m->agent_seconds;
+    row->deepest = m->deepest > row->deepest ? m->deepest : row->deepest;
+    row->bodies_touched += m->body_deepest > 0.0;
+    row->body_overlap += m->body_overlap * m->agent_seconds;
+    row->body_deepest = m->body_deepest > row->body_deepest ? m->body_deepest : row->body_deepest;
+    row->speed += m->speed_to_goal;
+    row->arrived += m->arrived;
+    row->last += m->last_arrival;
+}
+
 static ff_status run_row(contacts *all, contact_row *row, ff_progress *progress, ff_error *error)
 {
     ff_status status = FF_OK;
-    for (int64_t i = 0; i < runs_of(all, row) && status == FF_OK; ++i) {
-        ff_walk_trial trial = trial_of(all, row, all->options->first_seed + i);
-        ff_walk_measures m;
-        status = ff_walk_trial_run(all->pack, all->figure, &trial, &m, error);
-        if (status != FF_OK) break;
-        ++row->runs;
-        row->touched += m.deepest > 0.0;
-        row->overlap += m.overlap * m.agent_seconds;
-        row->agent_seconds += m.agent_seconds;
-        row->deepest = m.deepest > row->deepest ? m.deepest : row->deepest;
-        row->speed += m.speed_to_goal;
-        row->arrived += m.arrived;
-        row->last += m.last_arrival;
-        ff_progress_step(progress, row->scene);
+    int64_t runs = runs_of(all, row), threads = all->options->threads;
+    if (threads > SIDE_BY_SIDE) threads = SIDE_BY_SIDE;
+    for (int64_t i = 0; i < runs && status == FF_OK; i += threads) {
+        batch b = {.all = all, .row = row, .first_seed = all->options->first_seed + i};
+        int64_t count = runs - i < threads ? runs - i : threads;
+        ff_tasks_for(all->tasks, (uint32_t)count, 1, run_one, &b);
+        for (int64_t k = 0; k < count && status == FF_OK; ++k) {
+            status = b.status[k];
+            if (status != FF_OK)
+                *error = b.error[k];
+            else
+                add_run(row, &b.measures[k]);
+            ff_progress_step(progress, row->scene);
+        }
     }
     if (row->runs == 0) return status;
     row->overlap /= row->agent_seconds;
+    row->body_overlap /= row->agent_seconds;
     row->speed /= (double)row->runs;
     row->last /= (double)row->runs;
     return status;
@@ -136,21 +228,25 @@ static ff_status draw_four(contacts *all, const contact_row *row, const char *pa
 
 static void print_rows(const contacts *all)
 {
-    printf("%-9s %-6s %6s %10s %5s | %8s %9s %8s | %7s %9s %6s\n", "scene", "method", "agents", "budget",
-           "runs", "touched", "overlap", "deepest", "speed", "arrived", "last");
-    printf("%-9s %-6s %6s %10s %5s | %8s %9s %8s | %7s %9s %6s\n", "", "", "", "", "", "%", "/100 s", "cm",
-           "m/s", "", "s");
+    printf("%-9s %-6s %6s %10s %5s | %8s %9s %8s | %8s %9s %8s | %7s %9s %6s\n", "scene", "method", "agents",
+           "budget", "runs", "touched", "overlap", "deepest", "bodies", "overlap", "deepest", "speed",
+           "arrived", "last");
+    printf("%-9s %-6s %6s %10s %5s | %8s %9s %8s | %8s %9s %8s | %7s %9s %6s\n", "", "", "", "", "", "%",
+           "/100 s", "cm", "%", "/100 s", "cm", "m/s", "", "s");
     for (int i = 0; i < all->count; ++i) {
         const contact_row *row = &all->row[i];
+        double percent = 100.0 / (double)row->runs;
         char budget[24];
         if (row->budget_ms > 0.0)
             snprintf(budget, sizeof budget, "%.0f ms", row->budget_ms);
         else
             snprintf(budget, sizeof budget, "%u nodes", row->nodes);
-        printf("%-9s %-6s %6u %10s %5lld | %8.2f %9.4f %8.1f | %7.2f %4.0f/%-4.0f %6.1f\n", row->scene,
-               row->method, row->agents, budget, (long long)row->runs,
-               100.0 * (double)row->touched / (double)row->runs, row->overlap, 100.0 * row->deepest,
-               row->speed, row->arrived, (double)row->agents * (double)row->runs, row->last);
+        printf(
+            "%-9s %-6s %6u %10s %5lld | %8.2f %9.4f %8.1f | %8.2f %9.4f %8.1f | %7.2f %4.0f/%-4.0f %6.1f\n",
+            row->scene, row->method, row->agents, budget, (long long)row->runs,
+            percent * (double)row->touched, row->overlap, 100.0 * row->deepest,
+            percent * (double)row->bodies_touched, row->body_overlap, 100.0 * row->body_deepest, row->speed,
+            row->arrived, (double)row->agents * (double)row->runs, row->last);
     }
 }
 
@@ -159,13 +255,15 @@ static json_t *rows_json(const contacts *all)
     json_t *list = json_array();
     for (int i = 0; i < all->count; ++i) {
         const contact_row *row = &all->row[i];
-        json_array_append_new(list,
-                              json_pack("{s:s,s:s,s:I,s:f,s:I,s:I,s:I,s:f,s:f,s:f,s:f,s:f}", "scene",
-                                        row->scene, "method", row->method, "agents", (json_int_t)row->agents,
-                                        "budget_ms", row->budget_ms, "nodes", (json_int_t)row->nodes, "runs",
-                                        (json_int_t)row->runs, "touched_runs", (json_int_t)row->touched,
-                                        "overlap", row->overlap, "deepest_m", row->deepest, "speed_to_goal",
-                                        row->speed, "arrived", row->arrived, "last_arrival_s", row->last));
+        json_array_append_new(
+            list,
+            json_pack("{s:s,s:s,s:I,s:f,s:I,s:I,s:I,s:f,s:f,s:I,s:f,s:f,s:f,s:f,s:f}", "scene", row->scene,
+                      "method", row->method, "agents", (json_int_t)row->agents, "budget_ms", row->budget_ms,
+                      "nodes", (json_int_t)row->nodes, "runs", (json_int_t)row->runs, "touched_runs",
+                      (json_int_t)row->touched, "overlap", row->overlap, "deepest_m", row->deepest,
+                      "bodies_touched_runs", (json_int_t)row->bodies_touched, "body_overlap",
+                      row->body_overlap, "body_deepest_m", row->body_deepest, "speed_to_goal", row->speed,
+                      "arrived", row->arrived, "last_arrival_s", row->last));
     }
     return json_pack("{s:s,s:I,s:I,s:o}", "bench", "fig10", "seeds", (json_int_t)all->options->seeds,
                      "first_seed", (json_int_t)all->options->first_seed, "rows", list);
@@ -174,15 +272,15 @@ static json_t *rows_json(const contacts *all)
 static ff_status write_csv(const contacts *all, const char *path, ff_error *error)
 {
     ff_text text = {0};
-    ff_text_add(
-        &text,
-        "scene,method,agents,budget_ms,nodes,runs,touched_runs,overlap,deepest_m,speed_to_goal,arrived,"
-        "last_arrival_s\n");
+    ff_text_add(&text,
+                "scene,method,agents,budget_ms,nodes,runs,touched_runs,overlap,deepest_m,bodies_touched_runs,"
+                "body_overlap,body_deepest_m,speed_to_goal,arrived,last_arrival_s\n");
     for (int i = 0; i < all->count; ++i) {
         const contact_row *row = &all->row[i];
-        ff_text_add(&text, "%s,%s,%u,%.1f,%u,%lld,%lld,%.5f,%.4f,%.3f,%.0f,%.2f\n", row->scene, row->method,
-                    row->agents, row->budget_ms, row->nodes, (long long)row->runs, (long long)row->touched,
-                    row->overlap, row->deepest, row->speed, row->arrived, row->last);
+        ff_text_add(&text, "%s,%s,%u,%.1f,%u,%lld,%lld,%.5f,%.4f,%lld,%.5f,%.4f,%.3f,%.0f,%.2f\n", row->scene,
+                    row->method, row->agents, row->budget_ms, row->nodes, (long long)row->runs,
+                    (long long)row->touched, row->overlap, row->deepest, (long long)row->bodies_touched,
+                    row->body_overlap, row->body_deepest, row->speed, row->arrived, row->last);
     }
     return ff_text_write(&text, path, error);
 }
@@ -202,7 +300,14 @@ static ff_status write_files(contacts *all, ff_error *error)
     return status == FF_OK ? ff_footstep_scenes_draw(all->pack, options->out, error) : status;
 }
 
-static int run_fig10(const ff_bench_options *options, const char *scene, const char *speeds)
+/* Is it one of the rows that were asked for? NULL: all. */
+static bool is_wanted(const contact_row *row, const char *scene, const char *method)
+{
+    return (!scene || strcmp(scene, row->scene) == 0) && (!method || strcmp(method, row->method) == 0);
+}
+
+static int run_fig10(const ff_bench_options *options, const char *scene, const char *method,
+                     const char *speeds)
 {
     ff_error error = {0};
     ff_pack *pack = NULL;
@@ -213,8 +318,9 @@ static int run_fig10(const ff_bench_options *options, const char *scene, const c
     all.pack = pack;
     if (status == FF_OK) status = ff_figure_from_pack(pack, &figure, &error);
     if (status == FF_OK && options->out) status = ff_folder_create(options->out, &error);
+    if (status == FF_OK) status = ff_tasks_create((uint32_t)options->threads, &all.tasks, &error);
     for (int i = 0; i < ROWS; ++i) {
-        if (scene && strcmp(scene, rows[i].scene) != 0) continue;
+        if (!is_wanted(&rows[i], scene, method)) continue;
         all.row[all.count++] = rows[i];
         runs += (uint64_t)runs_of(&all, &rows[i]);
     }
@@ -226,6 +332,7 @@ static int run_fig10(const ff_bench_options *options, const char *scene, const c
         print_rows(&all);
         status = write_files(&all, &error);
     }
+    ff_tasks_destroy(all.tasks);
     ff_pack_close(pack);
     return status == FF_OK ? FF_EXIT_OK : ff_command_fail(FF_BENCH_PROGRAM, &error);
 }
@@ -233,14 +340,14 @@ static int run_fig10(const ff_bench_options *options, const char *scene, const c
 int ff_bench_fig10_main(int argc, char **argv)
 {
     ff_bench_options given = {.seeds = 100, .first_seed = 1, .threads = 1};
-    const char *scene = NULL;
-    const char *speeds = NULL;
+    const char *scene = NULL, *method = NULL, *speeds = NULL;
     double factors[FF_SPEED_VARIATIONS_MAX];
     const ff_option own[] = {
         {.name = "--scene",
          .value_name = "NAME",
          .help = "four, circle or crossing (default: all)",
          .text = &scene},
+        {.name = "--method", .value_name = "NAME", .help = "ours or paper (default: both)", .text = &method},
         {.name = "--speeds",
          .value_name = "LIST",
          .help = "walking steps at these factors on their speed, too, as 0.8,1.25 (default: none)",
@@ -252,15 +359,18 @@ int ff_bench_fig10_main(int argc, char **argv)
         .files = "where fig10.csv, fig10.json and pictures go: four who cross, two moving blocks (Figure 7), "
                  "a moved wall (8)",
         .seeds = "runs of the four (default 100); of the larger scenes one for every 20",
-        .threads = "of each crowd (default 1)",
+        .threads = "runs side by side (default 1); those with a budget in ms want a processor each",
         .own = own};
     int status = ff_bench_parse(&command, argc, argv, &given);
     if (status >= 0) return status;
-    bool known = !scene;
-    for (int i = 0; i < ROWS; ++i)
-        known = known || (scene && strcmp(scene, rows[i].scene) == 0);
+    bool known = false, known_scene = false;
+    for (int i = 0; i < ROWS; ++i) {
+        known_scene = known_scene || is_wanted(&rows[i], scene, NULL);
+        known = known || is_wanted(&rows[i], scene, method);
+    }
     if (!take_speeds(speeds, factors))
         return ff_bench_misuse(&command, "--speeds", speeds, "at most 4 factors, 0.5 to 1.5");
-    return known ? run_fig10(&given, scene, speeds)
-                 : ff_bench_misuse(&command, "--scene", scene, "four, circle or crossing");
+    if (!known_scene) return ff_bench_misuse(&command, "--scene", scene, "four, circle or crossing");
+    return known ? run_fig10(&given, scene, method, speeds)
+                 : ff_bench_misuse(&command, "--method", method, "ours or paper");
 }

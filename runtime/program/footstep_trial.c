@@ -3,6 +3,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/random.h"
+#include "runtime/core/plan_body.h"
 #include "runtime/export/body_contacts.h"
 
 #include <stdlib.h>
@@ -22,6 +23,8 @@ typedef struct walker {
     double arrived; /* s; < 0: not yet */
     ff_vec2 position;
     ff_cylinders body;
+    ff_body_capsule capsules[FF_BODY_CAPSULES];
+    double reach; /* m, from the position, of all capsules */
 } walker;
 
 typedef struct run {
@@ -36,7 +39,7 @@ typedef struct run {
     ff_random random;
     double side; /* m, of a crossing */
     ff_walk_measures out;
-    double walked, toward, contact;
+    double walked, toward, contact, body_contact;
 } run;
 
 static double now(clockid_t clock)
@@ -115,6 +118,31 @@ typedef struct placed {
     uint32_t index;
 } placed;
 
+/* The capsules of a body, and how far from its place they get. */
+static void look_at_body(const run *r, walker *w, const ff_vec3 *joints, const ff_quat *turned)
+{
+    w->reach = 0.0;
+    ff_body_capsules(r->pack, joints, turned, w->capsules);
+    for (int i = 0; i < FF_BODY_CAPSULES; ++i) {
+        const ff_body_capsule *c = &w->capsules[i];
+        double from = ff_length2(ff_sub2(ff_plane(c->from), w->position));
+        double to = ff_length2(ff_sub2(ff_plane(c->to), w->position));
+        w->reach = ff_max(w->reach, ff_max(from, to) + c->radius);
+    }
+}
+
+static void count_contact(run *r, const walker *p, const walker *q)
+{
+    double deep = ff_cylinders_overlap(&p->body, &q->body);
+    if (deep > 0.0) r->contact += r->trial->step;
+    r->out.deepest = ff_max(r->out.deepest, deep);
+    double apart = ff_length2(ff_sub2(p->position, q->position));
+    if (!r->trial->bodies || apart >= p->reach + q->reach) return;
+    deep = -ff_bodies_gap(p->capsules, q->capsules);
+    if (deep > 0.0) r->body_contact += r->trial->step;
+    r->out.body_deepest = ff_max(r->out.body_deepest, deep);
+}
+
 /* Pairs whose bodies touch, by a sweep along one axis. */
 static ff_status count_contacts(run *r, ff_error *error)
 {
@@ -127,10 +155,7 @@ static ff_status count_contacts(run *r, ff_error *error)
     for (uint32_t i = 0; i < n; ++i)
         for (uint32_t j = i + 1; j < n && order[j].a - order[i].a < NEAR; ++j) {
             const walker *p = &r->walkers[order[i].index], *q = &r->walkers[order[j].index];
-            if (fabs(p->position.b - q->position.b) >= NEAR) continue;
-            double deep = ff_cylinders_overlap(&p->body, &q->body);
-            if (deep > 0.0) r->contact += r->trial->step;
-            r->out.deepest = ff_max(r->out.deepest, deep);
+            if (fabs(p->position.b - q->position.b) < NEAR) count_contact(r, p, q);
         }
     free(order);
     return FF_OK;
@@ -146,6 +171,7 @@ static void look_at(run *r, walker *w, double time)
     ff_figure_place(r->figure, hips, rotations, joints, turned);
     w->body = ff_cylinders_of_colliders(r->pack, joints, turned);
     w->position = state.position;
+    if (r->trial->bodies) look_at_body(r, w, joints, turned);
     r->out.agent_seconds += r->trial->step;
     if (state.reached && w->arrived < 0.0) w->arrived = time;
     if (state.reached && r->trial->scene == FF_WALK_CROSSING) {
@@ -226,6 +252,7 @@ static void finish(run *r, uint32_t steps)
     out->work_ms = times_of(r->work, steps);
     out->plan_ms_mean = 1e3 * ff_crowd_time_spent(r->crowd).planning / steps;
     out->overlap = 100.0 * r->contact / out->agent_seconds;
+    out->body_overlap = 100.0 * r->body_contact / out->agent_seconds;
     out->speed_to_goal = r->walked > 0.0 ? r->toward / r->walked : 0.0;
     for (uint32_t i = 0; i < r->trial->agents; ++i) {
         if (r->walkers[i].arrived < 0.0) continue;

@@ -19,7 +19,8 @@ typedef struct ff_walk_trial {
     uint64_t seed;
     ff_planner planner;
     ff_footsteps_def footsteps;
-    bool mixed; /* every other one by velocity */
+    bool mixed;  /* every other one by velocity */
+    bool bodies; /* look at whole bodies as well, of capsules about the bones: slower */
     /* or NULL: shots pictures, evenly in time, of at most shot_count moments */
     ff_plan_scene *shots;
     uint32_t shot_count;
@@ -34,11 +35,12 @@ typedef struct ff_walk_measures {
     ff_walk_times frame_ms; /* of a step with the poses of everybody, by the clock on the wall */
     ff_walk_times
         work_ms; /* the same in time of the processor, all threads together: other programs do not count */
-    double plan_ms_mean;  /* per step */
-    double overlap;       /* pair-seconds of contact of the five cylinders per 100 agent-seconds */
-    double deepest;       /* m */
-    double speed_to_goal; /* m/s, mean over those who are not there yet */
-    double no_plan;       /* s, of all agents: without a valid plan */
+    double plan_ms_mean; /* per step */
+    double overlap;      /* pair-seconds of contact of the five cylinders per 100 agent-seconds */
+    double deepest;      /* m */
+    double body_overlap, body_deepest; /* the same of whole bodies, if they were looked at */
+    double speed_to_goal;              /* m/s, mean over those who are not there yet */
+    double no_plan;                    /* s, of all agents: without a valid plan */
     double last_arrival, mean_arrival; /* s; of those who arrived */
     uint32_t arrived;
     ff_plan_counts counts; /* of all */
