@@ -18,6 +18,16 @@ double ff_leg_soft_reach(double distance, double leg_length)
     return ease(distance, SOFT_FROM * leg_length, SOFT_TO * leg_length);
 }
 
+double ff_leg_hard_reach(double distance, double leg_length)
+{
+    double from = SOFT_FROM * leg_length, to = SOFT_TO * leg_length;
+    if (distance <= from) return distance;
+    double rest = ff_max((to - distance) / (to - from), 0.02), t = 1.0 - rest;
+    for (int i = 0; i < 5; ++i) /* Newton's steps for exp(-t) = rest, which from below never overshoot */
+        t += 1.0 - rest * ff_exp(t);
+    return from + (to - from) * t;
+}
+
 double ff_leg_swing_reach(double distance, double leg_length, double share)
 {
     return ff_lerp(distance, ease(distance, SWING_FROM * leg_length, SWING_TO * leg_length), share);

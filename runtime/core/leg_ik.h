@@ -23,6 +23,8 @@ typedef struct ff_legs {
 /* Distance that the leg really takes for a wanted one: the same up to 0.99 of the leg, easing to 0.998 (study, section
  * 4.5), so that the knee never snaps straight. */
 double ff_leg_soft_reach(double distance, double leg_length);
+/* What ff_leg_soft_reach makes this distance of. */
+double ff_leg_hard_reach(double distance, double leg_length);
 
 /* The same for a leg in the air, which need not arrive: eases from 0.95 of the leg to 0.993, so that a foot that is flung
  * ahead does not stop short where the leg ends. share: 0 reaches like a standing leg, 1 eases fully. */

@@ -121,9 +121,13 @@ ff_vec3 ff_leg_ankle(const ff_body_frame *body, int foot, const ff_leg_target *t
                      ff_quat *turn)
 {
     double length = body->thigh[foot] + body->shank[foot];
+    if (target->raise > 0.0) {
+        ff_vec3 lateral = ff_v3(ff_cos(target->ball.yaw), 0.0, -ff_sin(target->ball.yaw));
+        *turn = ff_quat_mul(ff_quat_axis(lateral, target->raise), *turn);
+    }
     ff_vec3 ankle = ff_gait_ankle(body, foot, target->ball, *turn);
     double distance = ff_length3(ff_sub3(ankle, hip));
-    double allowed = allowed_distance(target, distance, length);
+    double allowed = allowed_distance(target, distance, length) + (target->swing > 0.0 ? 0.0 : target->give);
     if (target->grip > 0.0 && distance > allowed) {
         ff_quat raised = heel_in_reach(body, target->ball, foot, hip, *turn, allowed, target->most_raise);
         *turn = target->grip < 1.0 ? ff_quat_nlerp(*turn, raised, target->grip) : raised;

@@ -22,7 +22,9 @@ typedef struct ff_leg_target {
     double swing; /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
     double round; /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
     double bent; /* 0 to 1: how much of the bend that toes flat on the floor would have, they have at least */
-    double give; /* m, by which the leg is longer than to the foot's place */
+    double
+        give; /* m, by which the leg is longer than to the foot's place, or, of one that stands, than its reach */
+    double raise; /* rad, by which the heel is lifted in any case */
 } ff_leg_target;
 
 /* Where a foot's ankle shall be; the heel raised (turn, of the foot), or the leg let short of it, where it is out of reach. */

@@ -279,7 +279,7 @@ static void pose_legs(const ff_body_frame *body, const ff_play_targets *at, ff_q
         ff_foothold ball = {at->ball[foot].z, at->ball[foot].x, at->ball[foot].y,
                             ff_play_foot_yaw(at->foot[foot])};
         target[foot] =
-            (ff_leg_target){ball, at->foot[foot], 0.0, MOST_RAISE, at->grip[foot], 0.0, 0.0, 0.0, 0.0};
+            (ff_leg_target){ball, at->foot[foot], 0.0, MOST_RAISE, at->grip[foot], 0.0, 0.0, 0.0, 0.0, 0.0};
     }
     ff_legs_pose(body, target, &legs, rotations);
 }

@@ -29,6 +29,8 @@ typedef struct ff_gait_foot {
     double phase_left; /* u, to the landing */
     double knee;       /* rad, its bend; 0 while nobody looks after it ... */
     double knee_speed; /* rad/s */
+    double
+        raised; /* rad, by how much its heel is higher than the gait has it, to be in reach; in swing, as it lifted */
     double give; /* m, that the leg is longer than to its foot in the air, so that the knee takes its time */
     uint32_t planted, unused;
 } ff_gait_foot;

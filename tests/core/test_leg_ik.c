@@ -88,6 +88,16 @@ static void a_straight_leg_bends_at_the_front_of_the_thigh(void **state)
     FF_ASSERT_NEAR(leg.knee.x, 0.1, 1e-9);
 }
 
+static void reach_that_is_eased_can_be_undone(void **state)
+{
+    (void)state;
+    for (double share = 0.5; share < 0.9975; share += 0.0005) {
+        double length = 0.9, far = ff_leg_hard_reach(share * length, length);
+        FF_ASSERT_NEAR(ff_leg_soft_reach(far, length), share * length, 1e-6);
+    }
+    assert_true(isfinite(ff_leg_hard_reach(0.95, 0.9))); /* more than any leg has */
+}
+
 static void a_knee_bent_backward_comes_out_bent_forward(void **state)
 {
     (void)state;
@@ -146,6 +156,7 @@ int main(void)
         cmocka_unit_test(the_knee_bends_forward_and_moves_without_jumps),
         cmocka_unit_test(reach_eases_from_0_990_to_0_998_and_never_locks),
         cmocka_unit_test(a_straight_leg_bends_at_the_front_of_the_thigh),
+        cmocka_unit_test(reach_that_is_eased_can_be_undone),
         cmocka_unit_test(a_knee_bent_backward_comes_out_bent_forward),
         cmocka_unit_test(two_legs_at_once_are_each_as_alone_to_the_bit),
     };

@@ -22,8 +22,8 @@ static ff_leg pose_left(const ff_body_frame *body, ff_vec3 hips, ff_foothold bal
     ff_legs_of_clip(body, hips, rotations, &legs);
     ff_vec3 right = ff_pair3_half(legs.ankle, 1);
     ff_foothold hanging = {right.z, right.x, right.y, 0.0};
-    ff_leg_target targets[2] = {{ball, turn, 0.0, most, 1.0, 0.0, 0.0, 0.0, 0.0},
-                                {hanging, FF_QUAT_IDENTITY, 0.0, most, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    ff_leg_target targets[2] = {{ball, turn, 0.0, most, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+                                {hanging, FF_QUAT_IDENTITY, 0.0, most, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
     ff_legs_pose(body, targets, &legs, rotations);
     return (ff_leg){.hip = ff_pair3_half(legs.hip, 0), .foot = ff_pairq_half(legs.foot, 0)};
 }
