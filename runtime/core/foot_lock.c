@@ -11,6 +11,8 @@
 #define HEEL_CLEARANCE 0.018 /* m, the same of the heel (gait facts: people 1.4 to 2.3 cm) */
 #define STRIKE 0.9           /* of the swing, which lasts until the foot is flat: the heel is down, */
 #define STRIKES_FROM 0.22    /* and comes down for so long: where swings slow, 0.77 is yet in their middle */
+#define CLEAR_ROUND 0.01     /* m, over which the corner is rounded where either begins to raise a foot, */
+#define CLEAR_ROUND_RUN 0.02 /* and where a runner's comes to it, which is faster */
 #define LIFT_WINDOW 0.5      /* of the swing, for offsets of height after the lift ... */
 #define LAND_WINDOW 0.25     /* ... and before the landing, where the heel is near the floor */
 #define PASS_ASIDE 0.08      /* m between ankles as one passes the other (gait facts: people 8.7 to 9.4 cm) */
@@ -261,9 +263,9 @@ static double soft_max(double x, double y, double round)
 }
 
 /* Raise a swinging ball over an arc above the floor, and the heel over the floor until it strikes. */
-static void clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot)
+static void clear_floor(const ff_body_frame *body, ff_gait_foot *state, int foot, double corner)
 {
-    double arc = 4.0 * state->progress * (1.0 - state->progress), round = 0.01 * arc;
+    double arc = 4.0 * state->progress * (1.0 - state->progress), round = corner * arc;
     double up = state->progress < 0.5 ? arc : 1.0;
     double heel = body->ball_rest + heel_rise(body, foot, state->pitch) +
                   HEEL_CLEARANCE * up * ff_smooth((STRIKE - state->progress) / STRIKES_FROM);
@@ -350,7 +352,8 @@ void ff_foot_keep_clear(const ff_foot_scene *scene, ff_gait_foot *state, const f
     state->path = state->now;
     if (state->planted) return;
     pass_beside(scene, state, other, foot);
-    clear_floor(&scene->space->body, state, foot);
+    double corner = scene->blend->way == FF_RUNNING ? CLEAR_ROUND_RUN : CLEAR_ROUND;
+    clear_floor(&scene->space->body, state, foot, corner);
 }
 
 bool ff_foot_swing(const ff_foot_scene *scene, ff_gait_foot *state, const ff_gait_foot *other, int foot)
