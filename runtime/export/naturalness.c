@@ -2,6 +2,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
+#include "runtime/core/pack.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,8 +41,10 @@ static ff_leg_pose_points mirrored(const ff_leg_pose_points *legs)
     return out;
 }
 
+/* None of a made-up clip: nobody was seen to move so. */
 static uint32_t poses_of(const ff_pack *pack, uint32_t clip)
 {
+    if (pack->clips[clip].flags & FF_CLIP_DERIVED) return 0;
     return 1 + (uint32_t)(ff_pack_stream_seconds(pack, ff_pack_clip_stream(pack, clip)) * POSE_RATE);
 }
 

@@ -1,5 +1,5 @@
 /* naturalness.h - how far a pose is from the nearest one that somebody really had: the mean distance of the legs' joints, feet
- * counted double, over all poses of the pack's clips and their mirror images (synthesis study, "NN"). */
+ * counted double, over all poses of the pack's clips (not made-up ones) and their mirror images (synthesis study, "NN"). */
 #ifndef FF_NATURALNESS_H
 #define FF_NATURALNESS_H
 
