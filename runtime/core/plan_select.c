@@ -25,6 +25,7 @@ typedef struct selection {
     uint32_t *twin;   /* the mirror image, or the action itself */
     uint32_t *joined; /* how many taken ones it follows or leads to */
     double *away;     /* from the nearest taken one */
+    uint32_t *first_lead, *leads;
 } selection;
 
 /* Is it one of a kind that begins or ends in standing? 0: no. */
@@ -75,16 +76,37 @@ static void find_twins(selection *s)
     }
 }
 
+/* Which actions each one follows: leads[first_lead[k]] up to first_lead[k + 1]. */
+static bool find_leads(selection *s)
+{
+    const ff_pack_action *r = s->pack->actions;
+    const ff_pack_successor *all = s->pack->successors;
+    size_t total = 0;
+    for (uint32_t i = 0; i < s->count; ++i)
+        total += r[i].successor_count;
+    s->first_lead = ff_calloc((size_t)s->count + 2, sizeof *s->first_lead);
+    s->leads = ff_calloc(total, sizeof *s->leads);
+    if (!s->first_lead || !s->leads) return false;
+    uint32_t *next =
+        s->first_lead + 1; /* where the next one of each is put: in the end, where the others' begin */
+    for (uint32_t i = 0; i < s->count; ++i)
+        for (uint32_t k = 0; k < r[i].successor_count; ++k)
+            ++next[all[r[i].first_successor + k].action + 1];
+    for (uint32_t k = 1; k <= s->count; ++k)
+        next[k] += next[k - 1];
+    for (uint32_t i = 0; i < s->count; ++i)
+        for (uint32_t k = 0; k < r[i].successor_count; ++k)
+            s->leads[next[all[r[i].first_successor + k].action]++] = i;
+    return true;
+}
+
 static void count_joins(selection *s, uint32_t taken)
 {
     const ff_pack_action *r = &s->pack->actions[taken];
     for (uint32_t i = 0; i < r->successor_count; ++i)
         ++s->joined[s->pack->successors[r->first_successor + i].action];
-    for (uint32_t k = 0; k < s->count; ++k) {
-        const ff_pack_action *p = &s->pack->actions[k];
-        for (uint32_t i = 0; i < p->successor_count; ++i)
-            s->joined[k] += s->pack->successors[p->first_successor + i].action == taken;
-    }
+    for (uint32_t i = s->first_lead[taken]; i < s->first_lead[taken + 1]; ++i)
+        ++s->joined[s->leads[i]];
 }
 
 static void take(selection *s, uint32_t index)
@@ -248,7 +270,7 @@ uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *ch
     s.twin = ff_calloc(s.count, sizeof *s.twin);
     s.joined = ff_calloc(s.count, sizeof *s.joined);
     s.away = ff_calloc(s.count, sizeof *s.away);
-    if (s.twin && s.joined && s.away) {
+    if (find_leads(&s) && s.twin && s.joined && s.away) {
         for (uint32_t i = 0; i < s.count; ++i)
             s.away[i] = INFINITY;
         find_twins(&s);
@@ -264,5 +286,7 @@ uint32_t ff_set_select(const ff_pack *pack, uint32_t cap, bool *usable, bool *ch
     free(s.twin);
     free(s.joined);
     free(s.away);
+    free(s.first_lead);
+    free(s.leads);
     return s.chosen;
 }
