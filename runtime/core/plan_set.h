@@ -6,6 +6,8 @@
 #include "runtime/core/plan.h"
 #include "runtime/core/plan_action.h"
 
+#include <string.h>
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -128,6 +130,28 @@ static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *
     ff_mix_lanes(p->a, q->a, f, out->a);
     ff_mix_lanes(p->b, q->b, f, out->b);
     ff_mix_lanes(p->y, q->y, f, out->y);
+}
+
+/* Colliders in S0, in their place. */
+static inline void ff_set_put(const ff_knot *local, const float anchor[2], float c, float s,
+                              ff_knot *restrict out)
+{
+#ifdef __SSE2__
+    const __m128 cosine = _mm_set1_ps(c), sine = _mm_set1_ps(s);
+    const __m128 at_a = _mm_set1_ps(anchor[0]), at_b = _mm_set1_ps(anchor[1]);
+    for (int i = 0; i <= FF_TRACK_LANES - 4; i += FF_TRACK_LANES - 4) { /* the middle ones twice */
+        __m128 a = _mm_loadu_ps(local->a + i), b = _mm_loadu_ps(local->b + i);
+        __m128 x = _mm_add_ps(at_a, _mm_mul_ps(cosine, a)), y = _mm_add_ps(at_b, _mm_mul_ps(sine, a));
+        _mm_storeu_ps(out->a + i, _mm_sub_ps(x, _mm_mul_ps(sine, b)));
+        _mm_storeu_ps(out->b + i, _mm_add_ps(y, _mm_mul_ps(cosine, b)));
+    }
+#else
+    for (int i = 0; i < FF_TRACK_LANES; ++i) {
+        out->a[i] = anchor[0] + c * local->a[i] - s * local->b[i];
+        out->b[i] = anchor[1] + s * local->a[i] + c * local->b[i];
+    }
+#endif
+    memcpy(out->y, local->y, sizeof out->y);
 }
 
 /* The root alone, and a radius about it that holds all colliders. */

@@ -105,6 +105,15 @@ static inline uint32_t ff_sight_chunk(const ff_sight *sight, int32_t knot)
     return (uint32_t)(knot + sight->skipped) / FF_TRACK_CHUNK;
 }
 
+/* Colliders of one that is seen at a knot, before its origin is added, and the radius about its root. */
+static inline const ff_knot *ff_sight_knot(const ff_sight_track *seen, int32_t knot, float *radius)
+{
+    int32_t k = knot - seen->shift, last = (int32_t)seen->track->count - 1;
+    k = k < 0 ? 0 : (k > last ? last : k);
+    *radius = seen->track->radius[k];
+    return &seen->track->knots[k];
+}
+
 /* Does one that is seen take up room within radius of (a, b) in one of the chunks from first to last? */
 static inline bool ff_sight_room_near(const ff_sight_track *seen, uint32_t first, uint32_t last, float a,
                                       float b, float radius)
