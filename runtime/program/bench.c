@@ -22,6 +22,7 @@ static const ff_subcommand benches[] = {
     {"fig9", "frames per second of crowds on footsteps (footstep planning, Figure 9)", ff_bench_fig9_main},
     {"fig10", "how bodies get past each other on footsteps (footstep planning, Figures 1 and 10)",
      ff_bench_fig10_main},
+    {"mixed", "crowds of which one half is on footsteps and the other goes by velocity", ff_bench_mixed_main},
     {"astar", "the search for footsteps: its cost and its plans, the footstep paper's beside ours",
      ff_bench_astar_main},
     {"facts", "straight walks beside what people do: steps, events, angles", ff_bench_facts_main},

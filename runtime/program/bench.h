@@ -18,6 +18,7 @@ int ff_bench_hybrid_main(int argc, char **argv);
 int ff_bench_walk_main(int argc, char **argv);
 int ff_bench_fig9_main(int argc, char **argv);
 int ff_bench_fig10_main(int argc, char **argv);
+int ff_bench_mixed_main(int argc, char **argv);
 int ff_bench_facts_main(int argc, char **argv);
 
 /* Write value where --json says and as NAME.json into the folder of --out, made if missing; where neither is given,

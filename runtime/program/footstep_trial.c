@@ -3,28 +3,24 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/random.h"
-#include "runtime/core/plan_body.h"
-#include "runtime/export/body_contacts.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #define APART 1.2     /* m, between starting places of a crossing, less where it is dense */
-#define NEAR 2.2      /* m between roots, beyond which bodies do not touch */
 #define FOUR_FAR 4.0  /* m from the middle */
 #define FOUR_OFF 0.6  /* m, by which starts and goals of the four are off */
 #define GOAL_NEAR 0.1 /* m: nearer than that there is no direction to the goal */
 #define TRIES 400     /* for a free starting place */
+#define ABREAST 6     /* of a stream */
+#define ROW_GAP 1.1   /* m, of a stream both ways, give or take ROW_OFF */
+#define ROW_OFF 0.15
+#define STREAM_FAR 3.0 /* m from the middle to the front row */
 
 typedef struct walker {
     ff_agent agent;
     ff_vec2 start, goal;
     double arrived; /* s; < 0: not yet */
-    ff_vec2 position;
-    ff_cylinders body;
-    ff_body_capsule capsules[FF_BODY_CAPSULES];
-    double reach; /* m, from the position, of all capsules */
 } walker;
 
 typedef struct run {
@@ -33,13 +29,14 @@ typedef struct run {
     const ff_figure *figure;
     ff_crowd *crowd;
     walker *walkers;
+    ff_paired_body *bodies;
     double *frame; /* s, per step */
     double *work;  /* s of the processors, per step: what a frame takes whatever else the machine does */
     ff_matrix *matrices;
     ff_random random;
     double side; /* m, of a crossing */
     ff_walk_measures out;
-    double walked, toward, contact, body_contact;
+    double walked[2], toward[2]; /* by velocity, on footsteps */
 } run;
 
 static double now(clockid_t clock)
@@ -70,10 +67,26 @@ static ff_vec2 free_place(run *r, uint32_t count)
     return at;
 }
 
+/* Every other one comes from the other side; the front row of one is the front row of the other when they have passed. */
+static void place_in_stream(run *r, uint32_t i)
+{
+    walker *w = &r->walkers[i];
+    uint32_t row = i / 2 / ABREAST, rows = (r->trial->agents / 2 + ABREAST - 1) / ABREAST;
+    double across = ROW_GAP * (i / 2 % ABREAST - 0.5 * (ABREAST - 1)), side = i % 2 == 0 ? -1.0 : 1.0;
+    ff_vec2 off =
+        ff_v2(ff_random_range(&r->random, -ROW_OFF, ROW_OFF), ff_random_range(&r->random, -ROW_OFF, ROW_OFF));
+    w->start = ff_add2(ff_v2(side * (STREAM_FAR + ROW_GAP * row), across), off);
+    w->goal = ff_sub2(w->start, ff_v2(side * (2.0 * STREAM_FAR + ROW_GAP * (rows - 1)), 0.0));
+}
+
 static void place_walker(run *r, uint32_t i)
 {
     const ff_walk_trial *t = r->trial;
     walker *w = &r->walkers[i];
+    if (t->scene == FF_WALK_STREAMS) {
+        place_in_stream(r, i);
+        return;
+    }
     if (t->scene == FF_WALK_CROSSING) {
         w->start = free_place(r, i);
         w->goal = somewhere(r);
@@ -87,9 +100,20 @@ static void place_walker(run *r, uint32_t i)
     w->goal = ff_scale2(ff_fwd2(angle + FF_PI + turn), radius);
 }
 
+/* Whether the next one goes by velocity; *left: how many of the rest do. */
+static bool by_velocity(run *r, uint32_t i, uint32_t *left)
+{
+    if (r->trial->mix == FF_MIX_NONE) return false;
+    if (r->trial->mix == FF_MIX_SIDES) return i % 2 == 1;
+    bool drawn = ff_random_range(&r->random, 0.0, r->trial->agents - i) < *left;
+    *left -= drawn;
+    return drawn;
+}
+
 static ff_status add_walkers(run *r, ff_error *error)
 {
     ff_status status = FF_OK;
+    uint32_t left = r->trial->agents / 2;
     for (uint32_t i = 0; i < r->trial->agents && status == FF_OK; ++i) {
         walker *w = &r->walkers[i];
         place_walker(r, i);
@@ -98,7 +122,7 @@ static ff_status add_walkers(run *r, ff_error *error)
         def.position = w->start;
         def.goal = w->goal;
         def.heading = ff_atan2(way.b, way.a);
-        if (r->trial->mixed && i % 2 == 1) def.planner = FF_PLANNER_VELOCITY;
+        if (by_velocity(r, i, &left)) def.planner = FF_PLANNER_VELOCITY;
         w->arrived = -1.0;
         status = ff_crowd_add_agent(r->crowd, &def, &w->agent, error);
     }
@@ -113,65 +137,33 @@ static int by_place(const void *x, const void *y)
     return (p > q) - (p < q);
 }
 
-typedef struct placed {
-    double a;
-    uint32_t index;
-} placed;
-
 /* The capsules of a body, and how far from its place they get. */
-static void look_at_body(const run *r, walker *w, const ff_vec3 *joints, const ff_quat *turned)
+static void look_at_body(const run *r, ff_paired_body *b, const ff_vec3 *joints, const ff_quat *turned)
 {
-    w->reach = 0.0;
-    ff_body_capsules(r->pack, joints, turned, w->capsules);
+    ff_body_capsules(r->pack, joints, turned, b->capsules);
     for (int i = 0; i < FF_BODY_CAPSULES; ++i) {
-        const ff_body_capsule *c = &w->capsules[i];
-        double from = ff_length2(ff_sub2(ff_plane(c->from), w->position));
-        double to = ff_length2(ff_sub2(ff_plane(c->to), w->position));
-        w->reach = ff_max(w->reach, ff_max(from, to) + c->radius);
+        const ff_body_capsule *c = &b->capsules[i];
+        double from = ff_length2(ff_sub2(ff_plane(c->from), b->position));
+        double to = ff_length2(ff_sub2(ff_plane(c->to), b->position));
+        b->reach = ff_max(b->reach, ff_max(from, to) + c->radius);
     }
 }
 
-static void count_contact(run *r, const walker *p, const walker *q)
+static void look_at(run *r, uint32_t i, double time)
 {
-    double deep = ff_cylinders_overlap(&p->body, &q->body);
-    if (deep > 0.0) r->contact += r->trial->step;
-    r->out.deepest = ff_max(r->out.deepest, deep);
-    double apart = ff_length2(ff_sub2(p->position, q->position));
-    if (!r->trial->bodies || apart >= p->reach + q->reach) return;
-    deep = -ff_bodies_gap(p->capsules, q->capsules);
-    if (deep > 0.0) r->body_contact += r->trial->step;
-    r->out.body_deepest = ff_max(r->out.body_deepest, deep);
-}
-
-/* Pairs whose bodies touch, by a sweep along one axis. */
-static ff_status count_contacts(run *r, ff_error *error)
-{
-    uint32_t n = r->trial->agents;
-    placed *order = ff_calloc(n, sizeof *order);
-    if (!order) return ff_fail(error, FF_ERR_NO_MEMORY, "a trial of %u agents", n);
-    for (uint32_t i = 0; i < n; ++i)
-        order[i] = (placed){r->walkers[i].position.a, i};
-    qsort(order, n, sizeof *order, by_place);
-    for (uint32_t i = 0; i < n; ++i)
-        for (uint32_t j = i + 1; j < n && order[j].a - order[i].a < NEAR; ++j) {
-            const walker *p = &r->walkers[order[i].index], *q = &r->walkers[order[j].index];
-            if (fabs(p->position.b - q->position.b) < NEAR) count_contact(r, p, q);
-        }
-    free(order);
-    return FF_OK;
-}
-
-static void look_at(run *r, walker *w, double time)
-{
+    walker *w = &r->walkers[i];
     ff_agent_state state;
     ff_vec3 hips, joints[FF_FIGURE_MAX_JOINTS];
     ff_quat rotations[FF_FIGURE_MAX_JOINTS], turned[FF_FIGURE_MAX_JOINTS];
     ff_crowd_agent_state(r->crowd, w->agent, &state, NULL);
     ff_crowd_agent_pose(r->crowd, w->agent, &hips, rotations, NULL);
     ff_figure_place(r->figure, hips, rotations, joints, turned);
-    w->body = ff_cylinders_of_colliders(r->pack, joints, turned);
-    w->position = state.position;
-    if (r->trial->bodies) look_at_body(r, w, joints, turned);
+    bool plans = state.planner == FF_PLANNER_FOOTSTEPS;
+    r->bodies[i] = (ff_paired_body){.body = ff_cylinders_of_colliders(r->pack, joints, turned),
+                                    .position = state.position,
+                                    .radius = ff_agent_def_default().radius,
+                                    .plans = plans};
+    if (r->trial->bodies) look_at_body(r, &r->bodies[i], joints, turned);
     r->out.agent_seconds += r->trial->step;
     if (state.reached && w->arrived < 0.0) w->arrived = time;
     if (state.reached && r->trial->scene == FF_WALK_CROSSING) {
@@ -181,8 +173,8 @@ static void look_at(run *r, walker *w, double time)
     ff_vec2 way = ff_sub2(state.goal, state.position);
     double far = ff_length2(way);
     if (state.reached || far < GOAL_NEAR) return;
-    r->walked += r->trial->step;
-    r->toward += ff_dot2(state.velocity, way) / far * r->trial->step;
+    r->walked[plans] += r->trial->step;
+    r->toward[plans] += ff_dot2(state.velocity, way) / far * r->trial->step;
 }
 
 static ff_status take_shot(run *r, uint32_t step, uint32_t steps, ff_error *error)
@@ -211,8 +203,9 @@ static ff_status step_crowd(run *r, uint32_t step, uint32_t steps, ff_error *err
     r->work[step] = now(CLOCK_PROCESS_CPUTIME_ID) - began;
     r->frame[step] = now(CLOCK_MONOTONIC) - start;
     for (uint32_t i = 0; i < r->trial->agents && status == FF_OK; ++i)
-        look_at(r, &r->walkers[i], (step + 1) * r->trial->step);
-    if (status == FF_OK) status = count_contacts(r, error);
+        look_at(r, i, (step + 1) * r->trial->step);
+    if (status == FF_OK)
+        status = ff_pair_contacts_count(r->bodies, r->trial->agents, r->trial->step, r->out.pairs, error);
     if (status == FF_OK && r->trial->shots) status = take_shot(r, step, steps, error);
     return status;
 }
@@ -251,9 +244,17 @@ static void finish(run *r, uint32_t steps)
     out->frame_ms = times_of(r->frame, steps);
     out->work_ms = times_of(r->work, steps);
     out->plan_ms_mean = 1e3 * ff_crowd_time_spent(r->crowd).planning / steps;
-    out->overlap = 100.0 * r->contact / out->agent_seconds;
-    out->body_overlap = 100.0 * r->body_contact / out->agent_seconds;
-    out->speed_to_goal = r->walked > 0.0 ? r->toward / r->walked : 0.0;
+    for (int kind = 0; kind < FF_PAIR_KINDS; ++kind) {
+        const ff_pair_contacts *pairs = &out->pairs[kind];
+        out->overlap += 100.0 * pairs->seconds / out->agent_seconds;
+        out->deepest = ff_max(out->deepest, pairs->deepest);
+        out->body_overlap += 100.0 * pairs->body_seconds / out->agent_seconds;
+        out->body_deepest = ff_max(out->body_deepest, pairs->body_deepest);
+    }
+    double walked = r->walked[0] + r->walked[1];
+    out->speed_to_goal = walked > 0.0 ? (r->toward[0] + r->toward[1]) / walked : 0.0;
+    for (int plans = 0; plans < 2; ++plans)
+        out->speed_by[plans] = r->walked[plans] > 0.0 ? r->toward[plans] / r->walked[plans] : 0.0;
     for (uint32_t i = 0; i < r->trial->agents; ++i) {
         if (r->walkers[i].arrived < 0.0) continue;
         ++out->arrived;
@@ -279,11 +280,12 @@ ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const 
     def.planner = trial->planner;
     def.footsteps = trial->footsteps;
     r.walkers = ff_calloc(trial->agents, sizeof *r.walkers);
+    r.bodies = ff_calloc(trial->agents, sizeof *r.bodies);
     r.frame = ff_calloc(steps, sizeof *r.frame);
     r.work = ff_calloc(steps, sizeof *r.work);
     r.matrices = ff_calloc((size_t)trial->agents * ff_pack_joint_count(pack), sizeof *r.matrices);
     ff_status status = FF_OK;
-    if (!r.walkers || !r.frame || !r.work || !r.matrices)
+    if (!r.walkers || !r.bodies || !r.frame || !r.work || !r.matrices)
         status = ff_fail(error, FF_ERR_NO_MEMORY, "a trial of %u agents", trial->agents);
     if (status == FF_OK) status = ff_crowd_create(pack, &def, &r.crowd, error);
     if (status == FF_OK) status = add_walkers(&r, error);
@@ -295,6 +297,7 @@ ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const 
     }
     ff_crowd_destroy(r.crowd);
     free(r.walkers);
+    free(r.bodies);
     free(r.frame);
     free(r.work);
     free(r.matrices);

@@ -4,12 +4,21 @@
 
 #include "runtime/export/figure.h"
 #include "runtime/export/plan_picture.h"
+#include "runtime/program/pair_contacts.h"
 
 typedef enum ff_walk_scene {
     FF_WALK_CROSSING, /* random places on a square, random goals, a new one when that is reached */
     FF_WALK_CIRCLE,   /* to the opposite side of a circle of radius max(4, 0.16 N) m */
     FF_WALK_FOUR,     /* four whose ways cross in the middle, a little off (Figures 1 and 10) */
+    FF_WALK_STREAMS,  /* two blocks, six abreast, that walk through each other */
 } ff_walk_scene;
+
+/* Who goes by velocity in a crowd on footsteps. */
+typedef enum ff_walk_mix {
+    FF_MIX_NONE,
+    FF_MIX_HALF,  /* half of them, drawn */
+    FF_MIX_SIDES, /* one of two streams */
+} ff_walk_mix;
 
 typedef struct ff_walk_trial {
     ff_walk_scene scene;
@@ -19,7 +28,7 @@ typedef struct ff_walk_trial {
     uint64_t seed;
     ff_planner planner;
     ff_footsteps_def footsteps;
-    bool mixed;  /* every other one by velocity */
+    ff_walk_mix mix;
     bool bodies; /* look at whole bodies as well, of capsules about the bones: slower */
     /* or NULL: shots pictures, evenly in time, of at most shot_count moments */
     ff_plan_scene *shots;
@@ -38,9 +47,11 @@ typedef struct ff_walk_measures {
     double plan_ms_mean; /* per step */
     double overlap;      /* pair-seconds of contact of the five cylinders per 100 agent-seconds */
     double deepest;      /* m */
-    double body_overlap, body_deepest; /* the same of whole bodies, if they were looked at */
-    double speed_to_goal;              /* m/s, mean over those who are not there yet */
-    double no_plan;                    /* s, of all agents: without a valid plan */
+    double body_overlap, body_deepest;     /* the same of whole bodies, if they were looked at */
+    ff_pair_contacts pairs[FF_PAIR_KINDS]; /* the same by who meets whom */
+    double speed_to_goal;                  /* m/s, mean over those who are not there yet */
+    double speed_by[2]; /* m/s, the same of those who go by velocity, and on footsteps; 0: there are none */
+    double no_plan;     /* s, of all agents: without a valid plan */
     double last_arrival, mean_arrival; /* s; of those who arrived */
     uint32_t arrived;
     ff_plan_counts counts; /* of all */

@@ -72,6 +72,14 @@ astar_sets_the_search_beside_the_paper_s() {
         [ "$(wc -l <"$work/astar/astar.csv")" -ge 39 ] && [ -s "$work/astar/astar.png" ] &&
         has "$work/astar.json" children_per_s ms_p99 cost_p95 '"formulation": "paper"'
 }
+mixed_tells_who_meets_whom() {
+    run 0 "$crowd" bench mixed --pack "$builtin" --scene circle --mixed --seeds 1 --step 0.1 --quiet --out "$work/mixed" \
+        --json "$work/mixed.json" && silent err || return 1
+    has "$work/out" "circle" "/40" && cmp "$work/mixed.json" "$work/mixed/mixed.json" &&
+        [ "$(wc -l <"$work/mixed/mixed.csv")" -eq 4 ] && [ -s "$work/mixed/mixed.png" ] && [ -s "$work/mixed/mixed-crowd.png" ] &&
+        has "$work/mixed.json" deepest_m discs_m speed_velocity '"footsteps": {' &&
+        run 2 "$crowd" bench mixed --pack "$builtin" --scene square && says err square
+}
 mistakes_leave_with_2_and_name_the_way_on() {
     run 2 "$crowd" bench && run 2 "$crowd" bench fig77 && says err "fig7" &&
         run 2 "$crowd" bench table1 && says err "--pack" && run 2 "$crowd" bench fig7 && says err "--pack" &&
@@ -88,5 +96,6 @@ test_that "every example is walked and filmed" every_example_is_walked_and_filme
 test_that "straight walks are people's" straight_walks_are_people_s
 test_that "hybrid walks an obstacle course in three ways" hybrid_walks_an_obstacle_course_in_three_ways
 test_that "astar sets the search beside the paper's" astar_sets_the_search_beside_the_paper_s
+test_that "mixed tells who meets whom" mixed_tells_who_meets_whom
 test_that "mistakes leave with 2 and name the way on" mistakes_leave_with_2_and_name_the_way_on
 finish
