@@ -8,8 +8,8 @@
 #define WAYPOINT_WIDTH 0.3 /* m, half of the way on which the next one is seen (B.7) */
 #define FORESEEN 2.0       /* s, in which obstacles on paths are looked for */
 #define IMMINENT 1.0       /* s, the same of what is not to be foreseen (B.8) */
+#define SETTLED 0.2        /* s, for which those who go by velocity are given time to see a new plan */
 #define DANGER 1.5 /* s: the feet of a jump leave the ground after 0.5 s, once the step before is over */
-#define SURPRISE_REACH 6.0 /* m, within which that is seen */
 
 static void call_for(ff_stepper *s, ff_plan_event event, double time)
 {
@@ -64,22 +64,6 @@ static double until_met(const ff_crowd *crowd, const ff_stepper *s, ff_obstacle_
     return least;
 }
 
-/* Somebody who goes by velocity is about to be met. */
-static bool met_by_velocity(const ff_crowd *crowd, uint32_t slot, double time)
-{
-    const ff_stepper *s = &crowd->steppers[slot];
-    ff_vec2 here = crowd->bodies[slot].position;
-    if (crowd->stepper_count == crowd->agent_count) return false;
-    for (uint32_t i = 0; i < crowd->grid.count; ++i) {
-        const ff_seen *other = &crowd->grid.seen[i];
-        if (ff_is_stepper(crowd, other->slot) || ff_length2(ff_sub2(other->position, here)) > SURPRISE_REACH)
-            continue;
-        ff_shape disc = {.centre = other->position, .radius = other->radius, .high = 2.0};
-        if (ff_track_meets(&s->track, time, IMMINENT, &disc, other->velocity, 0.0, NULL)) return true;
-    }
-    return false;
-}
-
 void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
@@ -103,7 +87,7 @@ void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
         call_for(s, FF_EVENT_DANGER, time);
         s->evasions = evasions;
     }
-    if (moved <= IMMINENT || met_by_velocity(crowd, slot, time)) {
+    if (moved <= IMMINENT || (time - s->created > SETTLED && ff_walkers_meet(crowd, slot, time, IMMINENT))) {
         if (!(s->pending >> FF_EVENT_SURPRISE & 1u)) s->surprised = time;
         call_for(s, FF_EVENT_SURPRISE, time);
     }

@@ -81,10 +81,12 @@ ff_status ff_footsteps_create(ff_crowd *crowd, ff_error *error)
     if (status != FF_OK) return status;
     f->jobs = ff_calloc(f->job_max, sizeof *f->jobs);
     f->bounds = ff_calloc(def->max_agents, sizeof *f->bounds);
+    f->paths = ff_calloc(def->max_agents, sizeof *f->paths);
     f->order = ff_calloc(f->job_max, sizeof *f->order);
     f->changed = ff_calloc((size_t)f->job_max + def->max_agents, sizeof *f->changed);
     f->movers = ff_calloc((size_t)def->max_obstacles + 1, sizeof *f->movers);
-    if (!f->jobs || !f->order || !f->bounds || !f->changed || !f->movers || !take_lanes(f, def, error))
+    if (!f->jobs || !f->order || !f->bounds || !f->paths || !f->changed || !f->movers ||
+        !take_lanes(f, def, error))
         return ff_fail(error, FF_ERR_NO_MEMORY, "the footsteps of %u agents", def->max_agents);
     for (uint32_t slot = 0; slot < def->max_agents; ++slot)
         f->bounds[slot] = FF_BOUNDS_NONE;
@@ -105,6 +107,7 @@ void ff_footsteps_destroy(ff_footsteps *f)
     free(f->jobs);
     free(f->order);
     free(f->bounds);
+    free(f->paths);
     free(f->changed);
     free(f->movers);
     ff_solids_destroy(f->solids);
@@ -270,6 +273,25 @@ void ff_footsteps_play(ff_crowd *crowd, uint32_t slot)
     mind->preferred = velocity;
     mind->facing = body->heading;
     mind->standing = stands(s) ? FF_STANDS : FF_WALKS;
+}
+
+#define SHOWN                                                                                                \
+    2 /* points of a path, over which a velocity is taken: a step, as roots sway and jump at joints */
+
+ff_vec2 ff_stepper_shows(const ff_crowd *crowd, uint32_t slot)
+{
+    const ff_track *track = &crowd->steppers[slot].track;
+    ff_path *path = &crowd->footsteps->paths[slot];
+    double now = ff_crowd_time(crowd) / FF_TRACK_STEP - (double)track->first;
+    for (int i = 0; i < FF_PATH_POINTS; ++i) {
+        double k = ff_clamp(now + i * (FF_PATH_STEP / FF_TRACK_STEP), 0.0, track->count - 1.0);
+        const ff_knot *from = &track->knots[(uint32_t)k], *to = from + ((uint32_t)k + 1 < track->count);
+        double share = k - floor(k);
+        ff_vec2 p = ff_v2((double)from->a[FF_COLLIDER_ROOT], (double)from->b[FF_COLLIDER_ROOT]);
+        ff_vec2 q = ff_v2((double)to->a[FF_COLLIDER_ROOT], (double)to->b[FF_COLLIDER_ROOT]);
+        path->at[i] = ff_add2(track->origin, ff_madd2(p, ff_sub2(q, p), share));
+    }
+    return ff_scale2(ff_sub2(path->at[SHOWN], path->at[0]), 1.0 / (SHOWN * FF_PATH_STEP));
 }
 
 /* ------------------------------------------------------------------------------------------------- questions */

@@ -9,6 +9,7 @@
  *   crowd_footsteps.c  memory, beginning, playing, questions
  *   crowd_events.c     who needs a new plan, and why
  *   crowd_plan.c       whose turn it is, searching, putting in force
+ *   crowd_walkers.c    how they see those who go by velocity
  *   crowd_react.c      breaking off a step
  *   crowd_change.c     from velocity to footsteps and back
  *   crowd_obstacles.c  things in the way
@@ -17,6 +18,7 @@
 #define FF_CROWD_FOOTSTEPS_H
 
 #include "runtime/core/base/memory.h"
+#include "runtime/core/nav_grid.h"
 #include "runtime/core/plan.h"
 #include "runtime/core/play.h"
 
@@ -101,6 +103,7 @@ typedef struct ff_footsteps {
     uint64_t test_max;    /* of a step: no more searches are begun then */
     uint32_t *order;      /* [job_max] of slots */
     ff_bounds *bounds;    /* [max_agents], by slot */
+    ff_path *paths;       /* [max_agents], by slot: of this step, of those who move by footsteps */
     atomic_uint next_job; /* of this step; up to job_end */
     uint32_t job_end, spare;
     uint32_t
@@ -140,6 +143,9 @@ void ff_footsteps_watch(struct ff_crowd *crowd,
 double ff_footsteps_plan(struct ff_crowd *crowd);              /* everybody's plans; when it was done */
 void ff_footsteps_play(struct ff_crowd *crowd, uint32_t slot); /* one agent, to the end of the step */
 
+/* How one who goes by velocity sees one who does not: paths of this step, and the velocity over what comes next. */
+ff_vec2 ff_stepper_shows(const struct ff_crowd *crowd, uint32_t slot);
+
 /* What ff_crowd_agent_state tells of one. */
 void ff_stepper_state(const struct ff_crowd *crowd, uint32_t slot, ff_agent_state *out);
 
@@ -168,6 +174,20 @@ static inline bool ff_bounds_meet(const ff_bounds *p, const ff_bounds *q)
     return p->low.a <= q->high.a && q->low.a <= p->high.a && p->low.b <= q->high.b && q->low.b <= p->high.b;
 }
 #define FF_BOUNDS_NONE ((ff_bounds){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}})
+
+/* crowd_walkers.c. Somebody who goes by velocity, as the agent sees it. */
+ff_walker ff_walker_of(const struct ff_crowd *crowd, uint32_t slot, const ff_seen *other, double time);
+/* Does a track, from a time on for some seconds, meet it, if it goes on? *when (may be NULL): s, absolute. */
+bool ff_walker_meets(const ff_walker *walker, const ff_track *track, double time, double seconds,
+                     double margin, double *when);
+/* Does the agent's plan in force meet any? */
+bool ff_walkers_meet(const struct ff_crowd *crowd, uint32_t slot, double time, double seconds);
+/* The nearest of those who can be met. */
+void ff_walkers_see(const struct ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world);
+/* They know the plan in force and keep off it: who would meet it is believed to go on only until then. */
+void ff_walkers_yield(const struct ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane,
+                      const ff_plan_world *world);
+#define FF_WALKER_IMMINENT 0.5 /* s: who goes by velocity cannot make way in less */
 
 /* crowd_react.c: break off the step that is being done for one that is free of what is in the way. False: none is. */
 bool ff_stepper_react(const struct ff_crowd *crowd, uint32_t slot, const ff_plan_world *world, double time,

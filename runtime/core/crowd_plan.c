@@ -8,7 +8,6 @@
 #define CLOSE_TO_STOP 0.5  /* s: who is so near to the stop at the end of its plan plans first */
 #define VIEW 11.0          /* m: so far one walks before a stop at the end of a plan */
 #define SURPRISE_VIEW 6.0  /* m, within which obstacles that the caller moves are seen */
-#define WALKER_REACH 0.15  /* m, by which hands and feet of who goes by velocity leave the disc */
 #define LEAD 0.5           /* s: and where they will be by then, too */
 #define GOAL_REACH 0.7     /* of the goal's tolerance, that a plan reaches into it */
 #define WAYPOINT_REACH 0.6 /* m */
@@ -22,7 +21,8 @@
 /* Collision tests, which take most of a search's time: of a search that is not easy; fewest searches at a time. */
 enum { USUAL_TESTS = 1000, AT_ONCE = 2 };
 enum { FIRST, SOON, LATER }; /* urgency */
-enum { URGENT = 1 << FF_EVENT_SURPRISE | 1 << FF_EVENT_DANGER };
+/* Something is in the way that nobody foresaw, or somebody who had to break off a step, or what is to be jumped or ducked. */
+enum { URGENT = 1 << FF_EVENT_SURPRISE | 1 << FF_EVENT_NEARBY | 1 << FF_EVENT_DANGER };
 
 /* ------------------------------------------------------------------------------------------------- whose turn */
 
@@ -98,21 +98,6 @@ static void see_steppers(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lan
     world->tracks = lane->tracks;
 }
 
-static void see_walkers(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world)
-{
-    world->walkers = lane->walkers;
-    if (crowd->stepper_count == crowd->agent_count) return;
-    ff_vec2 here = crowd->bodies[slot].position;
-    for (uint32_t i = 0; i < crowd->grid.count; ++i) {
-        const ff_seen *other = &crowd->grid.seen[i];
-        if (other->slot == slot || ff_is_stepper(crowd, other->slot) ||
-            ff_length2(ff_sub2(other->position, here)) > VIEW)
-            continue;
-        lane->walkers[world->walker_count++] =
-            (ff_walker){other->position, other->velocity, other->radius + WALKER_REACH};
-    }
-}
-
 /* Obstacles that the caller moves are seen where they are, and, if they move, where they will be shortly. */
 static void see_obstacles(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world)
 {
@@ -157,7 +142,7 @@ static ff_plan_world world_of(const ff_crowd *crowd, uint32_t slot, ff_plan_lane
     const ff_footsteps *f = crowd->footsteps;
     ff_plan_world world = {.solids = f->solids, .movers = f->movers, .mover_count = f->mover_count};
     see_steppers(crowd, slot, lane, &world);
-    see_walkers(crowd, slot, lane, &world);
+    ff_walkers_see(crowd, slot, lane, &world);
     see_obstacles(crowd, slot, lane, &world);
     see_evaded(crowd, lane, &world);
     return world;
@@ -199,16 +184,42 @@ static ff_plan_goal goal_of(const ff_crowd *crowd, uint32_t slot, ff_vec2 target
     return goal;
 }
 
-static bool meets_shapes(const ff_plan_world *world, const ff_track *track, double time)
+static bool meets_soon(const ff_plan_world *world, const ff_track *track, double time)
 {
     for (uint32_t i = 0; i < world->shape_count; ++i)
         if (ff_track_meets(track, time, IMMINENT, &world->shapes[i], ff_v2(0.0, 0.0), 0.0, NULL)) return true;
+    for (uint32_t i = 0; i < world->walker_count; ++i)
+        if (ff_walker_meets(&world->walkers[i], track, time, FF_WALKER_IMMINENT, 0.0, NULL)) return true;
     return false;
+}
+
+/* What one can do without the help of those who go by velocity; or else what they leave room for. */
+static ff_plan_outcome find_plan(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane,
+                                 const ff_plan_world *world, const ff_plan *current)
+{
+    const ff_footsteps *f = crowd->footsteps;
+    const ff_stepper *s = &crowd->steppers[job->slot];
+    ff_plan_goal goal = goal_of(crowd, job->slot, job->target);
+    ff_plan_options options = f->options;
+    if (s->pending >> FF_EVENT_DANGER & 1u) {
+        options.reactive = (uint8_t)s->evasions;
+        options.reactive_cost = EVADE_COST;
+    }
+    ff_plan_result result = {.outcome = FF_PLAN_NONE};
+    int tries = world->walker_count > 0 && job->kind == FF_JOB_PLAN ? 2 : 1;
+    for (int i = 0; i < tries && result.outcome == FF_PLAN_NONE; ++i) {
+        if (i > 0) ff_walkers_yield(crowd, job->slot, lane, world);
+        result = ff_plan_search(f->actions, world, current, ff_crowd_time(crowd), &goal, &options,
+                                lane->scratch, &job->plan);
+        job->counts.nodes += result.expanded;
+        job->tests += result.tested;
+    }
+    job->counts.searches = 1;
+    return result.outcome;
 }
 
 static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
 {
-    const ff_footsteps *f = crowd->footsteps;
     const ff_stepper *s = &crowd->steppers[job->slot];
     double time = ff_crowd_time(crowd);
     ff_plan current = s->plan;
@@ -218,23 +229,12 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
     if (job->kind == FF_JOB_ENTER && !ff_stepper_enters(crowd, job->slot, time, &current)) return;
     ff_plan_world world = world_of(crowd, job->slot, lane);
     job->target = ff_stepper_target(crowd, job->slot);
-    ff_plan_goal goal = goal_of(crowd, job->slot, job->target);
-    ff_plan_options options = f->options;
-    if (s->pending >> FF_EVENT_DANGER & 1u) {
-        options.reactive = (uint8_t)s->evasions;
-        options.reactive_cost = EVADE_COST;
-    }
-    ff_plan_result result =
-        ff_plan_search(f->actions, &world, &current, time, &goal, &options, lane->scratch, &job->plan);
-    job->counts.searches = 1;
-    job->counts.nodes = result.expanded;
-    job->tests = result.tested;
-    if (result.outcome == FF_PLAN_NONE)
+    if (find_plan(crowd, job, lane, &world, &current) == FF_PLAN_NONE)
         ++job->counts.failed;
     else
         finish_job(crowd, job, time);
-    if (job->kind == FF_JOB_PLAN && (s->pending & URGENT) &&
-        (!job->good || meets_shapes(&world, &job->track, time)))
+    if (job->kind == FF_JOB_PLAN && s->pending & URGENT &&
+        (!job->good || meets_soon(&world, &job->track, time)))
         ff_stepper_react(crowd, job->slot, &world, time, job);
 }
 

@@ -1,8 +1,8 @@
 /* crowd_react.c - a step is broken off because something that nobody foresaw is in its way (algorithms B.8, event 3).
  *
  * Other actions that begin as this one did, on the same foot in the same place, have as much of them behind them: one passes to such a
- * one where it is, and from its end to a stand. The first that is free of all that is in the way is taken; plans in force count
- * less than a collision that is about to happen: their owners are told, and plan anew.
+ * one where it is, and from its end to a stand. The one that meets something last is taken, plans in force included: their
+ * owners are told, and plan anew, or break off a step as well.
  */
 #include "runtime/core/crowd_footsteps.h"
 #include "runtime/core/crowd_state.h"
@@ -15,10 +15,11 @@
 #define HARDLY_BEGUN 0.25
 #define LOOK 1.5   /* s ahead */
 #define SUDDEN 0.4 /* s: what is met so soon in spite of everything lets one stop dead */
+#define ROOM 0.08  /* m, that is left to those who go by velocity, who do not expect one to stop */
 #define MOST 48    /* ways that are tried */
 
-/* How bad: the sooner something is met, the worse. What is really there comes first, then others' plans, then those who go by
- * velocity, who make way as well. */
+/* How bad: the sooner something is met, the worse. What is really there comes first, then people, whether they plan or go by
+ * velocity: both can make way, if there is time. */
 typedef struct outcome {
     double surprise, others, walkers; /* s until met; INFINITY: never */
     double stand;                     /* s, until it stands */
@@ -27,6 +28,8 @@ typedef struct outcome {
 static bool better(const outcome *p, const outcome *q)
 {
     if (p->surprise != q->surprise) return p->surprise > q->surprise;
+    double mine = ff_min(p->others, p->walkers), theirs = ff_min(q->others, q->walkers);
+    if (mine != theirs) return mine > theirs;
     if (p->others != q->others) return p->others > q->others;
     if (p->walkers != q->walkers) return p->walkers > q->walkers;
     return p->stand < q->stand;
@@ -65,7 +68,9 @@ static void stop_after(const ff_action_set *set, const ff_plan_step *step, const
     out->stop = out->count - 1;
 }
 
-static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double time, const ff_plan_job *job)
+/* room: m, to be kept from those who go by velocity, on top of what they need at least. */
+static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double time, const ff_plan_job *job,
+                     double room)
 {
     outcome out = {INFINITY, INFINITY, INFINITY, job->plan.steps[job->plan.count - 1].start - time};
     double when;
@@ -78,12 +83,9 @@ static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double t
             ff_track_meets(&job->track, time, LOOK, &obstacle->shape, obstacle->velocity, 0.0, &when))
             out.surprise = ff_min(out.surprise, when - time);
     }
-    for (uint32_t i = 0; i < world->walker_count; ++i) {
-        const ff_walker *walker = &world->walkers[i];
-        ff_shape disc = {.centre = walker->position, .radius = walker->radius, .high = 2.0};
-        if (ff_track_meets(&job->track, time, LOOK, &disc, walker->velocity, 0.0, &when))
+    for (uint32_t i = 0; i < world->walker_count; ++i)
+        if (ff_walker_meets(&world->walkers[i], &job->track, time, LOOK, room, &when))
             out.walkers = ff_min(out.walkers, when - time);
-    }
     if (ff_solids_hit(world->solids, job->track.origin, 10.0, job->track.origin, job->track.knots,
                       job->track.count, job->track.radii, 0.0))
         out.surprise = ff_min(out.surprise, out.stand);
@@ -115,7 +117,7 @@ static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from
         job.slot = w->slot;
         stop_after(set, step, from, stands ? NULL : &set->stops[a->first_stop + k], &job.plan);
         ff_plan_track(set, &job.plan, w->time, &job.track);
-        outcome result = judge(w->crowd, w->world, w->time, &job);
+        outcome result = judge(w->crowd, w->world, w->time, &job, ROOM);
         if (w->found && !better(&result, &w->outcome)) continue;
         w->found = true;
         w->outcome = result;
@@ -133,7 +135,7 @@ static void try_freezing(ways *w)
     job.slot = w->slot;
     ff_plan_stand(w->crowd->footsteps->actions, body->position, body->heading, w->time, &job.plan);
     ff_plan_track(w->crowd->footsteps->actions, &job.plan, w->time, &job.track);
-    outcome result = judge(w->crowd, w->world, w->time, &job);
+    outcome result = judge(w->crowd, w->world, w->time, &job, ROOM);
     if (!better(&result, &w->outcome)) return;
     w->outcome = result;
     w->best->plan = job.plan;
@@ -145,6 +147,8 @@ static void try_freezing(ways *w)
 static bool take_best(const ff_crowd *crowd, uint32_t slot, const ways *w, const outcome *old)
 {
     if (!better(&w->outcome, old)) return false;
+    /* Who goes by velocity keeps off the plan in force: what only meets him later takes him by surprise as well. */
+    if (old->surprise == INFINITY && old->others == INFINITY && w->outcome.walkers < INFINITY) return false;
     ff_plan_job *job = w->best;
     job->bounds = ff_track_bounds(&job->track);
     job->target = ff_stepper_target(crowd, slot);
@@ -164,9 +168,11 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
     /* What the plan in force, or the one just found, would meet. */
     ff_plan_job keep = {
         .slot = slot, .plan = job->good ? job->plan : s->plan, .track = job->good ? job->track : s->track};
-    w.outcome = judge(crowd, world, time, &keep);
+    w.outcome = judge(crowd, world, time, &keep, 0.0);
     w.found = true;
-    if (w.outcome.surprise == INFINITY && w.outcome.walkers == INFINITY) return false;
+    if (w.outcome.surprise == INFINITY && w.outcome.walkers > FF_WALKER_IMMINENT &&
+        w.outcome.others == INFINITY)
+        return false;
     outcome old = w.outcome;
     try_step(&w, now, from, false);
     if (now->hold) return take_best(crowd, slot, &w, &old);
@@ -187,6 +193,7 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
         step.start = time - done * (double)b->duration;
         try_step(&w, &step, from, true);
     }
-    if (w.outcome.surprise < SUDDEN || w.outcome.walkers < SUDDEN) try_freezing(&w);
+    if (w.outcome.surprise < SUDDEN)
+        try_freezing(&w); /* not before people, who may be about to pass behind */
     return take_best(crowd, slot, &w, &old);
 }

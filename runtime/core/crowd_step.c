@@ -76,18 +76,20 @@ static void snapshot(ff_crowd *crowd)
         ff_vec2 reference = baseline(crowd, slot) ? velocity
                                                   : ff_nav_reference(&crowd->def.mcn, &crowd->traits[slot],
                                                                      mind, body->position, velocity);
+        bool firm = ff_is_stepper(crowd, slot);
+        if (firm) velocity = reference = ff_stepper_shows(crowd, slot);
         crowd->live[count] = slot;
-        crowd->unsorted[count++] = (ff_seen){.position = body->position,
-                                             .velocity = velocity,
-                                             .reference = reference,
-                                             .preferred = mind->preferred,
-                                             .goal = crowd->traits[slot].goal,
-                                             .radius = crowd->traits[slot].radius +
-                                                       (ff_is_stepper(crowd, slot) ? STEPPER_REACH : 0.0),
-                                             .slot = slot,
-                                             .standing = mind->standing,
-                                             .firm = ff_is_stepper(crowd, slot)};
-        crowd->stepper_count += ff_is_stepper(crowd, slot);
+        crowd->unsorted[count++] =
+            (ff_seen){.position = body->position,
+                      .velocity = velocity,
+                      .reference = reference,
+                      .preferred = mind->preferred,
+                      .goal = crowd->traits[slot].goal,
+                      .radius = crowd->traits[slot].radius + (firm ? STEPPER_REACH : 0.0),
+                      .slot = slot,
+                      .standing = mind->standing,
+                      .firm = firm};
+        crowd->stepper_count += firm;
     }
     ff_grid_fill(&crowd->grid, crowd->unsorted, count);
 }
@@ -157,8 +159,9 @@ static void navigate(ff_crowd *crowd, uint32_t index)
     bool clip = crowd->gaits[slot].blend.way == FF_SEMI_PROCEDURAL &&
                 crowd->traits[slot].preferred_speed <= FF_RUN_PREFERRED;
     const ff_hull *hull = clip ? &crowd->clip_hull : &crowd->hull;
-    ff_nav_world world = {&crowd->grid,    &crowd->walls,   hull, &def->mcn, def->step,
-                          def->keep_right, def->mcn.padding};
+    ff_nav_world world = {&crowd->grid,    &crowd->walls,    hull, &def->mcn, def->step,
+                          def->keep_right, def->mcn.padding, NULL};
+    if (crowd->footsteps) world.paths = crowd->footsteps->paths;
     if (baseline(crowd, slot)) {
         world.keep_right = def->baseline.keep_right;
         world.padding = def->baseline.padding;

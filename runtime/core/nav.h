@@ -53,8 +53,9 @@ typedef struct ff_nav_world {
     const ff_mcn_def *mcn;
     double step; /* s */
     /* As the agent's method has them: */
-    double keep_right; /* rad, by which people turn aside for those they meet; negative = to the left */
-    double padding;    /* m per disc, in forces and constraints */
+    double keep_right;    /* rad, by which people turn aside for those they meet; negative = to the left */
+    double padding;       /* m per disc, in forces and constraints */
+    const ff_path *paths; /* by slot, of those who are firm; NULL: nobody is */
 } ff_nav_world;
 
 /* What synthesis has made of the last decision. */

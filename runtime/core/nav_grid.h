@@ -27,6 +27,13 @@ typedef struct ff_seen {
     uint32_t unused;
 } ff_seen;
 
+/* Where one of them will be who moves by a plan: FF_PATH_STEP apart, from now on. */
+#define FF_PATH_STEP 0.25 /* s */
+enum { FF_PATH_POINTS = 11 };
+typedef struct ff_path {
+    ff_vec2 at[FF_PATH_POINTS]; /* m */
+} ff_path;
+
 typedef struct ff_grid {
     ff_seen *seen;   /* [count] in cell order, by slot within a cell */
     uint32_t *start; /* [cells + 1] */

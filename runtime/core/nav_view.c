@@ -2,6 +2,7 @@
 
 #include "runtime/core/nav_forces.h"
 #include "runtime/core/nav_orca.h"
+#include "runtime/core/nav_path.h"
 
 #define SHARE 0.5      /* of the avoidance, as the other does the same (unless it is firm) */
 #define WEIGHT_MAX 4.0 /* of the most pressing neighbour in the dense fallback */
@@ -53,10 +54,21 @@ void ff_nav_add_walls(const ff_nav_view *view, ff_constraints *lines)
     lines->hull = lines->sharp = lines->hard = lines->count = lines->walls;
 }
 
-/* Where the pair will be when a body has answered, and ORCA from there (study 4, 4). */
-static ff_line avoid(const ff_nav_view *view, const ff_neighbour *neighbour, ff_avoiding how)
+/* Who is on a plan goes where that leads, and leaves all avoiding to us. */
+static ff_line avoid_path(const ff_nav_view *view, const ff_seen *other, ff_avoiding how, double *time)
 {
-    const ff_seen *me = view->me, *other = &view->world->grid->seen[neighbour->index];
+    const ff_seen *me = view->me;
+    ff_path_meeting meeting = ff_path_meet(&view->world->paths[other->slot], me, how.prediction);
+    *time = meeting.time;
+    return ff_orca_disc(meeting.to_other, ff_sub2(me->reference, meeting.velocity), me->reference,
+                        meeting.reach + 2.0 * view->world->padding, FF_HORIZON - how.prediction, 1.0,
+                        ff_max(view->world->step, OVERLAP_TIME), how.lean, apart(me, other));
+}
+
+/* Where the pair will be when a body has answered, and ORCA from there (study 4, 4). */
+static ff_line avoid_agent(const ff_nav_view *view, const ff_seen *other, ff_avoiding how)
+{
+    const ff_seen *me = view->me;
     double reach = me->radius + other->radius + 2.0 * view->world->padding;
     ff_vec2 now = ff_sub2(other->position, me->position), drift = ff_sub2(other->velocity, me->velocity);
     ff_vec2 then = now;
@@ -66,12 +78,20 @@ static ff_line avoid(const ff_nav_view *view, const ff_neighbour *neighbour, ff_
         if (ff_dot2(then, then) > reach * reach) break;
         then = now;
     }
-    ff_line line = ff_orca_disc(then, ff_sub2(me->reference, other->reference), me->reference, reach,
-                                FF_HORIZON - ahead, other->firm ? 1.0 : SHARE,
-                                ff_max(view->world->step, OVERLAP_TIME), how.lean, apart(me, other));
+    return ff_orca_disc(then, ff_sub2(me->reference, other->reference), me->reference, reach,
+                        FF_HORIZON - ahead, SHARE, ff_max(view->world->step, OVERLAP_TIME), how.lean,
+                        apart(me, other));
+}
+
+static ff_line avoid(const ff_nav_view *view, const ff_neighbour *neighbour, ff_avoiding how)
+{
+    const ff_seen *me = view->me, *other = &view->world->grid->seen[neighbour->index];
+    double time = neighbour->time;
+    ff_line line = other->firm ? avoid_path(view, other, how, &time) : avoid_agent(view, other, how);
     if (!how.weighted) return line;
-    line.weight = ff_clamp(FF_HORIZON / ff_max(neighbour->time, OVERLAP_TIME), 1.0, WEIGHT_MAX);
-    if (!me->standing && ff_dot2(now, me->velocity) < 0.0) line.weight *= BEHIND;
+    line.weight = ff_clamp(FF_HORIZON / ff_max(time, OVERLAP_TIME), 1.0, WEIGHT_MAX);
+    if (!me->standing && ff_dot2(ff_sub2(other->position, me->position), me->velocity) < 0.0)
+        line.weight *= BEHIND;
     return line;
 }
 

@@ -182,10 +182,15 @@ typedef struct ff_mover {
 /* Where its path has it at a time, without the shape's own centre. */
 ff_vec2 ff_mover_at(const ff_mover *mover, double time);
 
-/* Who goes by velocity: believed to go on straight for a while, with room that grows. */
+/* Who goes by velocity: a capsule along its way, believed to go on straight for a while, with room that grows. */
 typedef struct ff_walker {
     ff_vec2 position, velocity; /* at the time of the world */
-    double radius;
+    double wide;                /* m, its radius */
+    double radius; /* m: no more than there is room for until the present step is over, and then regained */
+    double close;  /* m: no more than there is room for now */
+    double half_length; /* m */
+    double grow;        /* m/s, of the radius */
+    double until;       /* s: for so long it is believed to go on */
 } ff_walker;
 
 /* What does not move: walls (segments of any height, solid from both sides) and shapes, with a tree that finds those near. */

@@ -150,6 +150,7 @@ static void see_movers(ff_sight *s, const ff_plan_world *world)
         m->known = FF_TRACK_KNOTS_MAX;
         m->gone = 0;
         m->evaded = ff_shape_evasions(&shape) != 0;
+        m->yields = INT32_MAX;
         double time = (double)s->first_knot * FF_TRACK_STEP;
         for (uint32_t k = 0; k < FF_TRACK_KNOTS_MAX; ++k)
             m->at[k] = ff_add2(centre, ff_mover_at(from, time + k * FF_TRACK_STEP));
@@ -163,21 +164,27 @@ static void see_movers(ff_sight *s, const ff_plan_world *world)
 /* Somebody who goes by velocity is believed to go on for a while, and then is anywhere. */
 static void see_walkers(ff_sight *s, const ff_plan_world *world, double view)
 {
-    const double believed = 2.5, grow = 0.08; /* s, m/s */
+    const double yields = 1.0, regain = 0.4; /* s, m/s */
     for (uint32_t i = 0; i < world->walker_count && s->mover_count < FF_SIGHT_MOVING_MAX; ++i) {
         const ff_walker *from = &world->walkers[i];
         ff_vec2 at = ff_sub2(from->position, s->origin);
         if (!(ff_length2(at) <= view)) continue;
         ff_sight_mover *m = &s->mover[s->mover_count++];
-        m->solid =
-            (ff_solid){.axis = ff_v2(1.0, 0.0), .radius = from->radius, .high = 1.9, .bound = from->radius};
-        m->grow = grow * FF_TRACK_STEP;
-        m->known = (uint32_t)(believed / FF_TRACK_STEP);
+        m->solid = (ff_solid){.axis = ff_unit2(from->velocity),
+                              .half_length = from->half_length,
+                              .radius = from->radius,
+                              .high = 1.9,
+                              .bound = from->half_length + from->radius};
+        if (from->half_length == 0.0) m->solid.axis = ff_v2(1.0, 0.0);
+        m->grow = from->grow * FF_TRACK_STEP;
+        m->known = (uint32_t)(from->until / FF_TRACK_STEP);
         m->gone = 1;
         m->evaded = 0;
+        m->yields = (int32_t)(yields / FF_TRACK_STEP);
         for (uint32_t k = 0; k <= m->known; ++k) {
             m->at[k] = ff_madd2(at, from->velocity, k * FF_TRACK_STEP - s->lead);
-            m->slack[k] = 0.0f;
+            m->slack[k] =
+                (float)ff_min(from->wide - from->radius, regain * ff_max(k * FF_TRACK_STEP - s->lead, 0.0));
         }
     }
 }

@@ -44,6 +44,7 @@ typedef struct ff_sight_mover {
     uint32_t known;                  /* knots; after them it stands, or is gone */
     uint32_t gone;
     uint32_t evaded; /* 1: who stands can jump or duck it */
+    int32_t yields;  /* knot from which on it goes round those who stand */
 } ff_sight_mover;
 
 typedef struct ff_sight {

@@ -227,12 +227,13 @@ static bool stands_in_way(const ff_sight_track *seen, const ff_stance *st, int32
     return ever && meets(seen, k, &st->end, &st->end, radius, margin, limits);
 }
 
-/* Up to which knot standing for ever has to be free of a mover: what can be jumped or ducked is, when it comes near. Else nobody
+/* Up to which knot standing has to be free of a mover. For ever: what can be jumped or ducked is, when it comes near. Else nobody
  * would go where a beam passes some day. */
-static int32_t stands_until(const ff_sight_mover *mover, const ff_stance *st, int32_t last)
+static int32_t stands_until(const ff_sight_mover *mover, const ff_stance *st, bool ever, int32_t last)
 {
     const int32_t ready = (int32_t)(2.0 / FF_TRACK_STEP);
-    return mover->evaded && st->knot + ready < last ? st->knot + ready : last;
+    int32_t until = ever && mover->evaded && st->knot + ready < last ? st->knot + ready : last;
+    return mover->yields < until ? mover->yields : until;
 }
 
 bool ff_stance_waits(ff_sight *sight, const ff_stance *st, float seconds)
@@ -260,7 +261,7 @@ bool ff_stance_waits(ff_sight *sight, const ff_stance *st, float seconds)
                          (double)sight->margin))
             return false;
     for (uint32_t i = 0; i < sight->mover_count; ++i)
-        for (int32_t k = st->knot; k < (ever ? stands_until(&sight->mover[i], st, last) : last); ++k)
+        for (int32_t k = st->knot; k < stands_until(&sight->mover[i], st, ever, last); ++k)
             if (meets_mover(&sight->mover[i], k, k == st->knot ? &st->tail : &st->end, &st->end, radii,
                             (double)sight->margin))
                 return false;
