@@ -57,12 +57,12 @@ soname  := libfootfall.so.$(firstword $(subst ., ,$(version)))
 all: programs library examples ## build both programs, the library and the examples
 
 # ---------------------------------------------------------------------------------------------------- sources
-core_src       := $(wildcard runtime/core/*.c runtime/core/*/*.c)
+core_src       := $(wildcard runtime/core/*/*.c)
 tool_src       := $(wildcard runtime/tool/*.c)
 export_src     := $(wildcard runtime/export/*.c runtime/export/*.cpp runtime/scenes/*.c)
 crowd_src      := $(wildcard runtime/program/*.c)
 mocap_src      := $(wildcard mocap/*.c mocap/*.cpp mocap/*/*.c mocap/*/*.cpp)
-preprocess_src := $(filter-out preprocess/main.c,$(wildcard preprocess/*.c preprocess/*.cpp preprocess/*/*.c preprocess/*/*.cpp))
+preprocess_src := $(wildcard preprocess/*/*.c preprocess/*/*.cpp)
 pack_src       := preprocess/main.c
 example_src    := $(wildcard runtime/examples/*.c)
 test_src       := $(wildcard tests/*/test_*.c)
@@ -106,14 +106,14 @@ $(B)/libroom_tool.a: $(call obj,$(tool_src)) $(B)/sources.txt
 	$(archive)
 $(B)/libroom_mocap.a: $(call obj,$(mocap_src)) $(B)/sources.txt
 	$(archive)
-# Results that footfall-pack keeps from build to build are those of one code only (preprocess/code_version.h).
+# Results that footfall-pack keeps from build to build are those of one code only (preprocess/base/code_version.h).
 code_src := $(sort $(core_src) $(mocap_src) $(preprocess_src) \
-    $(wildcard runtime/*.h runtime/core/*.h runtime/core/*/*.h mocap/*.h mocap/*/*.h preprocess/*.h))
+    $(wildcard runtime/*.h runtime/core/*/*.h mocap/*.h mocap/*/*.h preprocess/*/*.h))
 code_version := $(shell (echo '$(CC) $(CFLAGS_ALL) $(CXX) $(CXXFLAGS_ALL)'; cat $(code_src)) | sha256sum | cut -c1-16)
 $(B)/code-version.txt: FORCE
 	$(call remember,$(code_version))
-$(call obj,preprocess/code_version.c): CFLAGS_HERE := -DFF_CODE_VERSION='"$(code_version)"'
-$(call obj,preprocess/code_version.c): $(B)/code-version.txt
+$(call obj,preprocess/base/code_version.c): CFLAGS_HERE := -DFF_CODE_VERSION='"$(code_version)"'
+$(call obj,preprocess/base/code_version.c): $(B)/code-version.txt
 $(B)/libroom_preprocess.a: $(call obj,$(preprocess_src)) $(B)/sources.txt
 	$(archive)
 $(B)/libroom_export.a: $(call obj,$(export_src)) $(B)/sources.txt

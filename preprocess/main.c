@@ -1,16 +1,16 @@
 /* footfall-pack - makes motion packs from clips, and shows what is in clips and packs. */
 #define _POSIX_C_SOURCE 200809L
 #include "mocap/generator/generator.h"
-#include "preprocess/build.h"
-#include "preprocess/clean_command.h"
-#include "preprocess/diff_command.h"
-#include "preprocess/extract_command.h"
-#include "preprocess/import_command.h"
-#include "preprocess/plants_command.h"
-#include "preprocess/report.h"
-#include "preprocess/settings.h"
-#include "preprocess/steps_command.h"
-#include "preprocess/validate_command.h"
+#include "preprocess/build/build.h"
+#include "preprocess/build/settings.h"
+#include "preprocess/commands/clean_command.h"
+#include "preprocess/commands/diff_command.h"
+#include "preprocess/commands/extract_command.h"
+#include "preprocess/commands/import_command.h"
+#include "preprocess/commands/plants_command.h"
+#include "preprocess/commands/steps_command.h"
+#include "preprocess/commands/validate_command.h"
+#include "preprocess/report/report.h"
 #include "runtime/tool/command_line.h"
 
 #include <signal.h>

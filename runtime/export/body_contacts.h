@@ -3,7 +3,7 @@
 #ifndef FF_BODY_CONTACTS_H
 #define FF_BODY_CONTACTS_H
 
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 #include "runtime/export/figure.h"
 
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 #include "runtime/export/figure.h"
 
 #include "runtime/core/base/fail.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 
 #include <stdio.h>
 #include <string.h>

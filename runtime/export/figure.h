@@ -1,6 +1,6 @@
 /* figure.h - the pack's skeleton as the exporters need it: names, rest pose, forward kinematics.
  *
- * Joint j of a pack always plays the same part (runtime/core/joints.h), so that an exporter may say
+ * Joint j of a pack always plays the same part (runtime/core/pack/joints.h), so that an exporter may say
  * FF_JOINT_KNEE_L and never look at a name. In the rest pose every rotation is the identity: facing +Z, arms out to
  * the sides, legs straight down, soles at y = 0.
  */
@@ -8,8 +8,8 @@
 #define FF_FIGURE_H
 
 #include "runtime/core/base/maths.h"
-#include "runtime/core/joints.h"
-#include "runtime/core/pack_format.h"
+#include "runtime/core/pack/joints.h"
+#include "runtime/core/pack/pack_format.h"
 
 #define FF_FIGURE_MAX_JOINTS 64
 

@@ -1,7 +1,7 @@
 #include "runtime/export/gait_facts.h"
 
 #include "runtime/core/base/fail.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "runtime/export/gait_meter.h"
 
 #include "runtime/core/base/fail.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 
 #include <string.h>
 

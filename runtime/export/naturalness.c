@@ -2,7 +2,7 @@
 
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * put in while it runs. */
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/random.h"
-#include "runtime/core/behave.h"
+#include "runtime/core/behave/behave.h"
 #include "runtime/export/scene.h"
 
 #include <string.h>

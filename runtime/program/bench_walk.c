@@ -1,7 +1,7 @@
 /* bench_walk.c - `footfall-crowd bench walk`: how people walk, on courses of every kind: planted feet that slide, knees
  * that pop, joints faster than the database's, feet that scrape the floor or brush each other. */
 #include "runtime/core/base/file.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 #include "runtime/export/film_walk.h"
 #include "runtime/export/gait_meter.h"
 #include "runtime/export/metrics.h"

@@ -2,7 +2,7 @@
 #ifndef FF_PAIR_CONTACTS_H
 #define FF_PAIR_CONTACTS_H
 
-#include "runtime/core/plan_body.h"
+#include "runtime/core/plan/plan_body.h"
 #include "runtime/export/body_contacts.h"
 
 typedef struct ff_paired_body {

@@ -2,7 +2,7 @@
 #ifndef FF_PLAN_LOAD_H
 #define FF_PLAN_LOAD_H
 
-#include "runtime/core/plan.h"
+#include "runtime/core/plan/plan.h"
 
 /* Where people walk about: those in view, with the plans that they follow. */
 typedef struct ff_plan_street {

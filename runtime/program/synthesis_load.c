@@ -3,8 +3,8 @@
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 #include "runtime/core/base/random.h"
-#include "runtime/core/gait_hips.h"
-#include "runtime/core/leg_pose.h"
+#include "runtime/core/gait/gait_hips.h"
+#include "runtime/core/gait/leg_pose.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef FF_SYNTHESIS_LOAD_H
 #define FF_SYNTHESIS_LOAD_H
 
-#include "runtime/core/blend.h"
+#include "runtime/core/gait/blend.h"
 
 /* Skeleton: the pack's 21 joints, or with ten more, five fingers to a hand, that are turned by what the pack has for wrists
  * and elbows: 31, as the comparisons of others have. */

@@ -3,8 +3,8 @@
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/memory.h"
 #include "runtime/core/base/random.h"
-#include "runtime/core/body.h"
-#include "runtime/core/joints.h"
+#include "runtime/core/gait/body.h"
+#include "runtime/core/pack/joints.h"
 
 #include <stdlib.h>
 

@@ -3,7 +3,7 @@
 #ifndef FF_WALK_DRIVE_H
 #define FF_WALK_DRIVE_H
 
-#include "runtime/core/synth.h"
+#include "runtime/core/gait/synth.h"
 
 typedef enum ff_course_kind {
     FF_COURSE_STEADY,   /* rates, after a start */

@@ -4,7 +4,7 @@
 #define _GNU_SOURCE
 #include "mocap/generator/generator.h"
 #include "mocap/load.h"
-#include "preprocess/clean.h"
+#include "preprocess/clean/clean.h"
 #include "tests/preprocess/standard.h"
 
 #include <stdio.h>

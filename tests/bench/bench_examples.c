@@ -1,6 +1,6 @@
 /* Are the examples of a pack closed and do they correspond as well as they should? Measured on the poses in the pack.
  * Usage: bench_examples [PACK...]; without one, the built-in clips and, where FF_SHARED names them, captured ones. */
-#include "preprocess/build.h"
+#include "preprocess/build/build.h"
 #include "tests/check.h"
 #include "tests/preprocess/pack_bars.h"
 

@@ -2,12 +2,12 @@
  * Usage: bench_poses [CATALOGUE|FOLDER|CLIP...]; without, the CMU clips of the shared folder, or else the built-in ones. */
 #define _GNU_SOURCE
 #include "mocap/generator/generator.h"
-#include "preprocess/clean.h"
-#include "preprocess/motion.h"
-#include "preprocess/pack_fill.h"
+#include "preprocess/build/pack_fill.h"
+#include "preprocess/clean/clean.h"
+#include "preprocess/motion/motion.h"
 #include "runtime/core/base/random.h"
-#include "runtime/core/joints.h"
-#include "runtime/core/pose_stream.h"
+#include "runtime/core/pack/joints.h"
+#include "runtime/core/pack/pose_stream.h"
 #include "tests/preprocess/standard.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* What one agent costs: gait step, pose, clamping of rates. Usage: bench_synth [PACK] */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
-#include "runtime/core/synth_state.h"
+#include "runtime/core/gait/synth_state.h"
 #include "tests/core/walker_pack.h"
 
 #include <time.h>

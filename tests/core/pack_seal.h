@@ -2,7 +2,7 @@
 #ifndef FF_TEST_PACK_SEAL_H
 #define FF_TEST_PACK_SEAL_H
 
-#include "runtime/core/pack_format.h"
+#include "runtime/core/pack/pack_format.h"
 
 #include <stddef.h>
 #include <string.h>

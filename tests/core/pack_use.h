@@ -3,8 +3,8 @@
 #define FF_TEST_PACK_USE_H
 
 #include "runtime/core/base/random.h"
-#include "runtime/core/joints.h"
-#include "runtime/core/synth_state.h"
+#include "runtime/core/gait/synth_state.h"
+#include "runtime/core/pack/joints.h"
 
 /* One agent for so many steps at rates drawn from seed. Returns whether all poses were finite. */
 static inline bool ff_pack_use(const ff_pack *pack, int steps, uint64_t seed)

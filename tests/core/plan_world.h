@@ -3,9 +3,9 @@
 #define FF_TEST_PLAN_WORLD_H
 
 #include "runtime/core/base/random.h"
-#include "runtime/core/plan_field.h"
-#include "runtime/core/plan_set.h"
-#include "runtime/core/plan_solids.h"
+#include "runtime/core/plan/plan_field.h"
+#include "runtime/core/plan/plan_set.h"
+#include "runtime/core/plan/plan_solids.h"
 #include "tests/built_in_pack.h"
 
 typedef struct plan_world {

@@ -3,8 +3,8 @@
 #define FF_TEST_PLAY_WALK_H
 
 #include "runtime/core/base/random.h"
-#include "runtime/core/plan_action.h"
-#include "runtime/core/play.h"
+#include "runtime/core/plan/plan_action.h"
+#include "runtime/core/play/play.h"
 #include "tests/built_in_pack.h"
 
 typedef struct play_world {

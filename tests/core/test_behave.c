@@ -1,5 +1,5 @@
 /* The parts of behaviour by themselves: places, amounts, conditions, goals, and what a definition may not say. */
-#include "runtime/core/behave.h"
+#include "runtime/core/behave/behave.h"
 #include "tests/check.h"
 #include "tests/core/behave_fair.h"
 

@@ -1,6 +1,6 @@
 /* The body that follows commands: root motion is exactly the rates, with lag, within the clamp, off the walls. */
 #include "runtime/core/base/random.h"
-#include "runtime/core/body.h"
+#include "runtime/core/gait/body.h"
 #include "tests/check.h"
 
 /* The box of the navigation study, section 1. */

@@ -1,6 +1,6 @@
 /* People of different sizes: drawn from the seed, standing on the ground, walking in proportion; all ways to draw them agree. */
 #define _GNU_SOURCE
-#include "runtime/core/crowd_state.h"
+#include "runtime/core/crowd/crowd_state.h"
 #include "tests/built_in_open.h"
 
 enum { PEOPLE = 40 };

@@ -4,7 +4,7 @@
 #include "tests/core/crowd_ask.h"
 #include "tests/core/walker_open.h"
 
-#include "runtime/core/behave.h"
+#include "runtime/core/behave/behave.h"
 
 /* A crowd at the fair, with some who are there from the start. */
 static ff_crowd *fair_crowd(uint32_t threads, uint32_t there)

@@ -4,7 +4,7 @@
 #include "tests/core/crowd_trial.h"
 #include "tests/core/pack_seal.h"
 
-#include "runtime/core/crowd_format.h"
+#include "runtime/core/crowd/crowd_format.h"
 
 #include <stdio.h>
 #include <unistd.h>

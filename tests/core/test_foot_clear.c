@@ -2,7 +2,7 @@
  * happens in the midst of a swing. */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
-#include "runtime/core/synth.h"
+#include "runtime/core/gait/synth.h"
 #include "runtime/export/gait_meter.h"
 #include "tests/built_in_open.h"
 

@@ -2,7 +2,7 @@
  * threads. */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
-#include "runtime/core/crowd_state.h"
+#include "runtime/core/crowd/crowd_state.h"
 #include "tests/built_in_open.h"
 #include "tests/core/crowd_ask.h"
 

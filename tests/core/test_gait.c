@@ -1,6 +1,6 @@
 /* Walkers on trajectories of every kind: planted feet stand, nothing jumps, legs do not cross, one foot is down. */
 #include "runtime/core/base/tasks.h"
-#include "runtime/core/synth_state.h"
+#include "runtime/core/gait/synth_state.h"
 #include "tests/core/walker_space.h"
 
 #define HZ 60

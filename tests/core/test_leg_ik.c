@@ -1,6 +1,6 @@
 /* The two-bone leg: lengths kept, targets met, no flips, no locked knees. */
 #include "runtime/core/base/random.h"
-#include "runtime/core/leg_ik.h"
+#include "runtime/core/gait/leg_ik.h"
 #include "tests/check.h"
 
 static const ff_vec3 down_thigh = {0.0, -0.42, 0.0}, down_shank = {0.0, -0.40, 0.0};

@@ -1,8 +1,8 @@
 /* A foot out of reach lifts its heel by the least angle that helps; captured persons' postures are levelled, limbs are not. */
 #include "runtime/core/base/random.h"
-#include "runtime/core/gait_hips.h"
-#include "runtime/core/leg_pose.h"
-#include "runtime/core/posture.h"
+#include "runtime/core/gait/gait_hips.h"
+#include "runtime/core/gait/leg_pose.h"
+#include "runtime/core/pose/posture.h"
 #include "tests/core/walker_space.h"
 
 static double distance_raised(const ff_body_frame *body, ff_foothold ball, ff_vec3 hip, double raise)

@@ -1,7 +1,7 @@
 /* Blending, the semi-procedural clip and running on the built-in pack: what each can do, and nobody notices the change. */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
-#include "runtime/core/synth_state.h"
+#include "runtime/core/gait/synth_state.h"
 #include "tests/built_in_open.h"
 #include "tests/core/walker_pack.h"
 

@@ -1,7 +1,7 @@
 /* Those who go by velocity among those who plan: where plans lead is known to them, and bodies do not get into each other. */
 #define _GNU_SOURCE
-#include "runtime/core/crowd_state.h"
-#include "runtime/core/nav_path.h"
+#include "runtime/core/crowd/crowd_state.h"
+#include "runtime/core/nav/nav_path.h"
 #include "runtime/export/body_contacts.h"
 #include "tests/built_in_open.h"
 #include "tests/core/crowd_ask.h"

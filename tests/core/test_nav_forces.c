@@ -1,7 +1,7 @@
 /* Times to collision, forces and density against closed forms and finite differences (algorithms H). */
 #include "runtime/core/base/random.h"
-#include "runtime/core/nav_density.h"
-#include "runtime/core/nav_forces.h"
+#include "runtime/core/nav/nav_density.h"
+#include "runtime/core/nav/nav_forces.h"
 #include "tests/check.h"
 
 static void time_to_collision_of_discs_matches_the_anchors(void **state)

@@ -1,7 +1,7 @@
 /* Neighbours by grid and walls by boxes against brute force. */
 #include "runtime/core/base/random.h"
-#include "runtime/core/nav_grid.h"
-#include "runtime/core/nav_walls.h"
+#include "runtime/core/nav/nav_grid.h"
+#include "runtime/core/nav/nav_walls.h"
 #include "tests/check.h"
 
 #define COUNT 700

@@ -1,6 +1,6 @@
 /* The velocity hull's half-planes (algorithms A.11, H). */
 #include "runtime/core/base/random.h"
-#include "runtime/core/nav_hull.h"
+#include "runtime/core/nav/nav_hull.h"
 #include "tests/check.h"
 
 static bool holds(const ff_line *lines, uint32_t count, ff_vec2 v)

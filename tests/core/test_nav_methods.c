@@ -1,6 +1,6 @@
 /* The methods of navigation and the switches of their parts, through the public interface and against closed forms. */
-#include "runtime/core/nav_baseline.h"
-#include "runtime/core/synth_state.h"
+#include "runtime/core/gait/synth_state.h"
+#include "runtime/core/nav/nav_baseline.h"
 #include "tests/core/crowd_trial.h"
 #include "tests/core/walker_space.h"
 

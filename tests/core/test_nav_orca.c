@@ -1,6 +1,6 @@
 /* ORCA half-planes against a sampled definition of the velocity obstacle. */
 #include "runtime/core/base/random.h"
-#include "runtime/core/nav_orca.h"
+#include "runtime/core/nav/nav_orca.h"
 #include "tests/check.h"
 
 /* Whether relative velocity v brings a disc at x (own minus other) within reach during horizon. */

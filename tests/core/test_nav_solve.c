@@ -1,6 +1,6 @@
 /* Linear programmes of navigation against brute force. */
 #include "runtime/core/base/random.h"
-#include "runtime/core/nav_solve.h"
+#include "runtime/core/nav/nav_solve.h"
 #include "tests/check.h"
 
 static ff_line random_line(ff_random *random, double reach)

@@ -1,7 +1,7 @@
 /* The standing foot's half-plane (FbCrowd eq 6-8 in the reading of nav_stance.h) and the rules of facing, against closed
  * forms. */
-#include "runtime/core/nav_facing.h"
-#include "runtime/core/nav_stance.h"
+#include "runtime/core/nav/nav_facing.h"
+#include "runtime/core/nav/nav_stance.h"
 #include "tests/check.h"
 
 #define STEP (1.0 / 30.0)

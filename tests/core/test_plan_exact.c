@@ -2,7 +2,7 @@
 #define _GNU_SOURCE
 #include "tests/core/plan_world.h"
 
-#include "runtime/core/plan_sight.h"
+#include "runtime/core/plan/plan_sight.h"
 
 #include <stdio.h>
 
@@ -147,8 +147,7 @@ typedef struct tried {
     long sequences;
 } tried;
 
-static void try_all(const problem *p, ff_sight *sight, const place *at, int depth, double cost,
-                    tried *out)
+static void try_all(const problem *p, ff_sight *sight, const place *at, int depth, double cost, tried *out)
 {
     const ff_set_action *a = &p->set->actions[at->action];
     ++out->sequences;

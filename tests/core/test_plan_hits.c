@@ -2,9 +2,9 @@
 #define _GNU_SOURCE
 #include "tests/core/plan_world.h"
 
-#include "runtime/core/crowd_footsteps.h"
-#include "runtime/core/plan_body.h"
-#include "runtime/core/plan_hit.h"
+#include "runtime/core/crowd/crowd_footsteps.h"
+#include "runtime/core/plan/plan_body.h"
+#include "runtime/core/plan/plan_hit.h"
 
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 /* Joints of actions: tracks go on without a jump, bounds hold, and played bodies are where their tracks have them. */
 #define _GNU_SOURCE
-#include "runtime/core/crowd_state.h"
-#include "runtime/core/plan_joint.h"
+#include "runtime/core/crowd/crowd_state.h"
+#include "runtime/core/plan/plan_joint.h"
 #include "runtime/export/body_contacts.h"
 #include "tests/core/plan_world.h"
 

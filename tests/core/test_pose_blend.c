@@ -1,6 +1,6 @@
 /* Blended poses: against sums in doubles, SIMD against plain C, and the hemisphere that frames are put on. */
 #include "runtime/core/base/random.h"
-#include "runtime/core/pose_blend.h"
+#include "runtime/core/pose/pose_blend.h"
 #include "tests/check.h"
 
 #define FRAMES 40

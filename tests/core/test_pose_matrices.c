@@ -1,6 +1,6 @@
 /* Matrices of joints: against forward kinematics in doubles, SIMD against plain C, and of whole crowds. */
-#include "runtime/core/joints.h"
-#include "runtime/core/pose_matrices.h"
+#include "runtime/core/pack/joints.h"
+#include "runtime/core/pose/pose_matrices.h"
 #include "tests/core/crowd_trial.h"
 #include "tests/core/walker_open.h"
 

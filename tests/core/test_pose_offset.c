@@ -1,5 +1,5 @@
 /* The difference of two motions at a switch: all of it at first, continuous in place and speed, gone at the end. */
-#include "runtime/core/pose_offset.h"
+#include "runtime/core/pose/pose_offset.h"
 #include "tests/check.h"
 
 #define H (1.0 / 240.0)

@@ -1,8 +1,8 @@
 /* Danger: bars that sweep at people on footsteps are jumped or ducked, by bodies and not in plans alone. */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
-#include "runtime/core/crowd_state.h"
-#include "runtime/core/joints.h"
+#include "runtime/core/crowd/crowd_state.h"
+#include "runtime/core/pack/joints.h"
 #include "tests/built_in_pack.h"
 
 #include <stdlib.h>

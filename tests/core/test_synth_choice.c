@@ -1,6 +1,6 @@
 /* Which way of moving an agent wants (FbCrowd eq 1, read as its prose), and what a crowd makes of it. */
 #define _GNU_SOURCE
-#include "runtime/core/synth_choice.h"
+#include "runtime/core/gait/synth_choice.h"
 #include "tests/built_in_open.h"
 
 static ff_choice_view far_from_all(void)

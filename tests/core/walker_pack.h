@@ -3,10 +3,10 @@
 #ifndef FF_TEST_WALKER_PACK_H
 #define FF_TEST_WALKER_PACK_H
 
-#include "preprocess/pose_encode.h"
-#include "runtime/core/joints.h"
-#include "runtime/core/leg_ik.h"
-#include "runtime/core/synth.h"
+#include "preprocess/pack/pose_encode.h"
+#include "runtime/core/gait/leg_ik.h"
+#include "runtime/core/gait/synth.h"
+#include "runtime/core/pack/joints.h"
 
 #include <stdio.h>
 #include <stdlib.h>

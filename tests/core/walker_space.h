@@ -2,7 +2,7 @@
 #ifndef FF_TEST_WALKER_SPACE_H
 #define FF_TEST_WALKER_SPACE_H
 
-#include "runtime/core/blend.h"
+#include "runtime/core/gait/blend.h"
 #include "tests/check.h"
 #include "tests/core/walker_pack.h"
 

@@ -2,7 +2,7 @@
 #ifndef FF_TEST_BUILT_IN_WALK_H
 #define FF_TEST_BUILT_IN_WALK_H
 
-#include "runtime/core/synth_state.h"
+#include "runtime/core/gait/synth_state.h"
 #include "runtime/export/gait_meter.h"
 #include "tests/built_in_pack.h"
 

@@ -1,7 +1,7 @@
 /* The distance to the nearest recorded pose: none for what is recorded, and what a plain search finds for everything else. */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 #include "runtime/export/naturalness.h"
 #include "tests/built_in_open.h"
 

@@ -4,7 +4,7 @@
 #ifndef FF_CHANGE_SECTIONS_H
 #define FF_CHANGE_SECTIONS_H
 
-#include "runtime/core/pack_format.h"
+#include "runtime/core/pack/pack_format.h"
 
 #include <string.h>
 

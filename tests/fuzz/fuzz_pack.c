@@ -1,7 +1,7 @@
 /* The pack loader, and synthesis and footstep plans on whatever it lets through. A first byte of 0: the rest is the file. Else
  * it says which of a few small packs, made just now, the rest are changes to (change_sections.h). The checksum is put
  * right first: it would hide every other check. */
-#include "runtime/core/plan.h"
+#include "runtime/core/plan/plan.h"
 #include "tests/core/pack_seal.h"
 #include "tests/core/pack_use.h"
 #include "tests/core/walker_pack.h"

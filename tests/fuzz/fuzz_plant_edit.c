@@ -1,5 +1,5 @@
 /* Override files: whatever is let through is applied to a clip's plants, whose frames then are in order and inside it. */
-#include "preprocess/plant_edit.h"
+#include "preprocess/plants/plant_edit.h"
 
 #include <stdlib.h>
 

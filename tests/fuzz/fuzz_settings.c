@@ -1,5 +1,5 @@
 /* The configuration reader on any bytes: refused with a place, or every setting in its range. */
-#include "preprocess/settings.h"
+#include "preprocess/build/settings.h"
 
 #include <stdlib.h>
 

@@ -51,12 +51,35 @@ no_code() {
     return 1
 }
 
+# floors ROOT FOLDER...: lowest first; a folder includes of ROOT only its own files and those of folders below it, and
+# every folder of ROOT is named
+floors() {
+    root=$1 below=
+    shift
+    for folder in "$root"/*/; do
+        case " $* " in *" $(basename "$folder") "*) ;; *) echo "$folder has no floor" && return 1 ;; esac
+    done
+    for folder in "$@"; do
+        below="$below${below:+|}$folder"
+        includes "$root/$folder" | grep ":\"$root/" | grep -vE ":\"$root/($below)/" >"$work/strays" || continue
+        echo "$root/$folder may include only $below of $root, but:"
+        cat "$work/strays"
+        return 1
+    done
+}
+
 std='<(assert|ctype|errno|float|inttypes|limits|math|setjmp|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string|time)\.h>'
 posix='<(dirent|fcntl|pthread|sched|strings|unistd|sys/[a-z]+)\.h>'
 simd='<(emmintrin|immintrin)\.h>'
 
 core_includes_nothing_outside_itself() {
     only runtime/core "$std|$posix|$simd|<xxhash\.h>|\"runtime/core/|\"runtime/footfall\.h\""
+}
+core_s_folders_stand_on_each_other() {
+    floors runtime/core base pack pose nav gait play plan behave crowd
+}
+preprocess_s_folders_stand_on_each_other() {
+    floors preprocess base plants motion pack clean examples actions skin build report commands
 }
 tool_knows_only_the_base() {
     only runtime/tool "$std|$posix|<jansson\.h>|\"runtime/tool/|\"runtime/core/base/|\"runtime/footfall\.h\""
@@ -155,6 +178,8 @@ every_header_stands_alone() {
 
 test_that "core includes nothing outside itself" core_includes_nothing_outside_itself
 test_that "tool knows only the base" tool_knows_only_the_base
+test_that "the folders of core stand on each other" core_s_folders_stand_on_each_other
+test_that "the folders of preprocess stand on each other" preprocess_s_folders_stand_on_each_other
 test_that "runtime includes neither mocap nor preprocess" runtime_includes_neither_mocap_nor_preprocess
 test_that "mocap includes the base and the tools" mocap_includes_the_base_and_the_tools
 test_that "preprocess includes mocap and runtime" preprocess_includes_mocap_and_runtime

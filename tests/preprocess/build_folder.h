@@ -5,9 +5,9 @@
 
 #include "mocap/generator/generator.h"
 #include "mocap/write.h"
-#include "preprocess/build.h"
+#include "preprocess/build/build.h"
 #include "runtime/core/base/file.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 #include "tests/check.h"
 
 #include <dirent.h>

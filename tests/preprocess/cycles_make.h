@@ -2,7 +2,7 @@
 #ifndef FF_CYCLES_MAKE_H
 #define FF_CYCLES_MAKE_H
 
-#include "preprocess/cycles.h"
+#include "preprocess/examples/cycles.h"
 #include "tests/preprocess/motion_make.h"
 
 typedef struct made_cycles {

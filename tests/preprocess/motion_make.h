@@ -3,7 +3,7 @@
 #define FF_MOTION_MAKE_H
 
 #include "mocap/generator/generator.h"
-#include "preprocess/motion.h"
+#include "preprocess/motion/motion.h"
 #include "tests/preprocess/clip_change.h"
 #include "tests/preprocess/standard.h"
 

@@ -3,9 +3,9 @@
 #ifndef FF_PACK_BARS_H
 #define FF_PACK_BARS_H
 
-#include "preprocess/correspond.h"
-#include "preprocess/example_judge.h"
-#include "preprocess/pack_read.h"
+#include "preprocess/examples/correspond.h"
+#include "preprocess/examples/example_judge.h"
+#include "preprocess/report/pack_read.h"
 
 #include <stdio.h>
 

@@ -4,7 +4,7 @@
 #define FF_PLANT_SCORE_H
 
 #include "mocap/load.h"
-#include "preprocess/plants.h"
+#include "preprocess/plants/plants.h"
 #include "tests/check.h"
 #include "tests/preprocess/standard.h"
 

@@ -2,7 +2,7 @@
 #ifndef FF_STANDARD_H
 #define FF_STANDARD_H
 
-#include "preprocess/settings.h"
+#include "preprocess/build/settings.h"
 
 static inline const ff_settings *standard(void)
 {

@@ -1,10 +1,10 @@
 /* What a pack's actions are good for: mirror images, successors, small sets, and what is derived. */
 #define _GNU_SOURCE
 #include "mocap/write.h"
-#include "preprocess/build.h"
-#include "preprocess/coverage.h"
-#include "preprocess/successors.h"
-#include "runtime/core/pack.h"
+#include "preprocess/actions/successors.h"
+#include "preprocess/build/build.h"
+#include "preprocess/report/coverage.h"
+#include "runtime/core/pack/pack.h"
 #include "tests/core/pack_seal.h"
 #include "tests/preprocess/motion_make.h"
 #include "tests/preprocess/standard.h"

@@ -1,9 +1,9 @@
 /* Broken capture: what is put into a clean clip by hand is found, named, put back or cut out; what is whole is left
  * alone. */
-#include "preprocess/breaks.h"
+#include "preprocess/plants/breaks.h"
 
 #include "mocap/load.h"
-#include "preprocess/steps.h"
+#include "preprocess/actions/steps.h"
 #include "tests/preprocess/motion_make.h"
 #include "tests/preprocess/standard.h"
 

@@ -1,6 +1,6 @@
 /* The cache: what was stored comes back; what is damaged in any way does not; nothing of it can fail a build. */
 #define _GNU_SOURCE
-#include "preprocess/cache.h"
+#include "preprocess/base/cache.h"
 
 #include "runtime/core/base/file.h"
 #include "tests/check.h"

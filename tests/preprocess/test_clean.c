@@ -1,7 +1,7 @@
 /* The clean-up of feet: slopes against differences, a leg against the law of cosines, a walk with a known slide, walks
  * that need none, and captured clips against what is asked of them. */
-#include "preprocess/clean_finish.h"
-#include "preprocess/clean_knots.h"
+#include "preprocess/clean/clean_finish.h"
+#include "preprocess/clean/clean_knots.h"
 #include "tests/preprocess/motion_make.h"
 #include "tests/preprocess/standard.h"
 

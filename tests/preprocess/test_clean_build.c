@@ -1,11 +1,11 @@
 /* The clean-up as a part of builds: on unless switched off, the same bytes from any number of threads, and told of in
  * the pack. */
 #define _GNU_SOURCE
-#include "preprocess/build.h"
+#include "preprocess/build/build.h"
 
 #include "mocap/generator/generator.h"
 #include "mocap/write.h"
-#include "runtime/core/pack.h"
+#include "runtime/core/pack/pack.h"
 #include "tests/check.h"
 
 #include <jansson.h>

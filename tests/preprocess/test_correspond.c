@@ -3,7 +3,7 @@
 #include "tests/preprocess/cycles_make.h"
 #include "tests/preprocess/standard.h"
 
-#include "preprocess/correspond_set.h"
+#include "preprocess/examples/correspond_set.h"
 #include "runtime/core/base/random.h"
 
 static ff_vec3 random_point(ff_random *random)

@@ -2,8 +2,8 @@
  * while locked, and make a set that is the same to the left as to the right. */
 #include "tests/preprocess/cycles_make.h"
 
-#include "preprocess/derive.h"
-#include "preprocess/examples.h"
+#include "preprocess/examples/derive.h"
+#include "preprocess/examples/examples.h"
 
 /* Where the ball of a foot is in the world when the root, moving at the example's rates, was at the origin at frame
  * 0; k may go beyond the cycle. */

@@ -1,7 +1,7 @@
 /* Filters and the floor against closed forms. */
-#include "preprocess/filter.h"
+#include "preprocess/base/filter.h"
 
-#include "preprocess/floor.h"
+#include "preprocess/plants/floor.h"
 #include "runtime/core/base/random.h"
 #include "tests/check.h"
 #include "tests/preprocess/standard.h"

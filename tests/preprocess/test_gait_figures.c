@@ -1,6 +1,6 @@
 /* Steps, cadence, speed, step length and turn of clips, against figures others measured on the same captures (labels,
  * steps.csv) and against what the generator was asked for. */
-#include "preprocess/gait_figures.h"
+#include "preprocess/actions/gait_figures.h"
 
 #include "mocap/load.h"
 #include "tests/preprocess/motion_make.h"

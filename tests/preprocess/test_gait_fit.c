@@ -3,8 +3,8 @@
 #include "tests/preprocess/cycles_make.h"
 #include "tests/preprocess/standard.h"
 
-#include "preprocess/cycles.h"
-#include "preprocess/gait_fit.h"
+#include "preprocess/examples/cycles.h"
+#include "preprocess/examples/gait_fit.h"
 
 #include <stdio.h>
 

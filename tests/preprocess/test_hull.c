@@ -1,5 +1,5 @@
 /* The hull against its definition by brute force, and the velocity set of FbCrowd. */
-#include "preprocess/hull.h"
+#include "preprocess/examples/hull.h"
 #include "runtime/core/base/random.h"
 #include "tests/check.h"
 

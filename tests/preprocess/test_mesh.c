@@ -1,9 +1,9 @@
 /* Surfaces of characters: cleaning, levels of detail, fitting to the rig, thickness of bones. */
 #include "mocap/generator/generator.h"
-#include "preprocess/annotate.h"
-#include "preprocess/mesh.h"
-#include "preprocess/pack_fill.h"
-#include "preprocess/retarget.h"
+#include "preprocess/actions/annotate.h"
+#include "preprocess/build/pack_fill.h"
+#include "preprocess/motion/retarget.h"
+#include "preprocess/skin/mesh.h"
 #include "tests/check.h"
 #include "tests/preprocess/standard.h"
 

@@ -1,7 +1,7 @@
 /* The pack's bytes: where sections stand, that padding is zero, that the checksum is right, that files appear whole or
  * not at all. */
 #define _GNU_SOURCE
-#include "preprocess/pack_write.h"
+#include "preprocess/pack/pack_write.h"
 #include "runtime/core/base/file.h"
 #include "tests/check.h"
 

@@ -1,8 +1,8 @@
 /* Override files: what a person wrote about a clip's plants holds; what does not fit is refused with its line. */
 #define _GNU_SOURCE
-#include "preprocess/plant_edit.h"
+#include "preprocess/plants/plant_edit.h"
 
-#include "preprocess/steps.h"
+#include "preprocess/actions/steps.h"
 #include "tests/preprocess/motion_make.h"
 #include "tests/preprocess/standard.h"
 

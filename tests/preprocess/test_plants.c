@@ -1,5 +1,5 @@
 /* The plant detector against the truth of generated clips, and against changes that must not matter. */
-#include "preprocess/plants.h"
+#include "preprocess/plants/plants.h"
 
 #include "mocap/generator/generator.h"
 #include "tests/preprocess/clip_change.h"

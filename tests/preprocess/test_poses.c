@@ -1,11 +1,11 @@
 /* Pose streams: what is stored of a motion against the motion itself, at any time, from either side, round the cycle. */
 #define _GNU_SOURCE
-#include "preprocess/clean.h"
-#include "preprocess/pack_fill.h"
-#include "preprocess/pose_spline.h"
+#include "preprocess/build/pack_fill.h"
+#include "preprocess/clean/clean.h"
+#include "preprocess/pack/pose_spline.h"
 #include "runtime/core/base/random.h"
-#include "runtime/core/joints.h"
-#include "runtime/core/pose_stream.h"
+#include "runtime/core/pack/joints.h"
+#include "runtime/core/pack/pose_stream.h"
 #include "tests/preprocess/motion_make.h"
 #include "tests/preprocess/standard.h"
 

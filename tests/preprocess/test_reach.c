@@ -1,7 +1,7 @@
 /* Reach tables against walks of the pack's own actions: nobody comes to stand anywhere for much less than the tables say. */
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
-#include "runtime/core/plan_set.h"
+#include "runtime/core/plan/plan_set.h"
 #include "tests/built_in_pack.h"
 
 #include <stdio.h>

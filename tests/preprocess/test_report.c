@@ -1,8 +1,8 @@
 /* The report of a whole pack: complete, self-contained, well-formed. */
 #define _GNU_SOURCE
-#include "preprocess/report.h"
+#include "preprocess/report/report.h"
 
-#include "preprocess/report_parts.h"
+#include "preprocess/report/report_parts.h"
 #include "runtime/core/base/file.h"
 #include "tests/built_in_pack.h"
 

@@ -2,8 +2,8 @@
  * with the clip's own rates; then a cycle that closes badly; and when nothing will do, the message says what there is. */
 #include "tests/preprocess/cycles_make.h"
 
-#include "preprocess/example_judge.h"
-#include "preprocess/examples.h"
+#include "preprocess/examples/example_judge.h"
+#include "preprocess/examples/examples.h"
 
 /* Only half cycles. */
 static ff_cycles cut_half(const ff_rig *rig, const made_motion *made)

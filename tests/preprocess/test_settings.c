@@ -1,6 +1,6 @@
 /* The configuration: every setting is described, its default is in its range, and what is wrong is refused with its
  * place. That the printed reference says the same is tested end to end. */
-#include "preprocess/settings.h"
+#include "preprocess/build/settings.h"
 
 #include "tests/check.h"
 

@@ -4,10 +4,10 @@
 #include "tests/preprocess/motion_make.h"
 #include "tests/preprocess/setting_rows.h"
 
-#include "preprocess/clean.h"
-#include "preprocess/cycles.h"
-#include "preprocess/example_judge.h"
-#include "preprocess/steps.h"
+#include "preprocess/actions/steps.h"
+#include "preprocess/clean/clean.h"
+#include "preprocess/examples/cycles.h"
+#include "preprocess/examples/example_judge.h"
 
 /* ------------------------------------------------------------------------------------------------------ the clips */
 

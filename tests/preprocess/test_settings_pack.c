@@ -4,13 +4,13 @@
 #include "tests/preprocess/cycles_make.h"
 #include "tests/preprocess/setting_rows.h"
 
-#include "preprocess/correspond_set.h"
-#include "preprocess/cycles.h"
-#include "preprocess/derive_motion.h"
-#include "preprocess/examples.h"
-#include "preprocess/mesh.h"
-#include "preprocess/steps.h"
-#include "preprocess/successors.h"
+#include "preprocess/actions/derive_motion.h"
+#include "preprocess/actions/steps.h"
+#include "preprocess/actions/successors.h"
+#include "preprocess/examples/correspond_set.h"
+#include "preprocess/examples/cycles.h"
+#include "preprocess/examples/examples.h"
+#include "preprocess/skin/mesh.h"
 
 static const char *const names[] = {"walk-slow", "walk-normal", "walk-brisk", "curve-left", "jog", "run"};
 enum { CLIPS = sizeof names / sizeof names[0] };

@@ -1,5 +1,5 @@
 /* Limits of sharp turns against velocity sets whose star can be drawn by hand. */
-#include "preprocess/sharp_turn.h"
+#include "preprocess/examples/sharp_turn.h"
 #include "tests/check.h"
 
 static double violation(const ff_pack_sharp *line, double f, double l)

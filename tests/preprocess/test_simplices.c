@@ -1,5 +1,5 @@
 /* Delaunay simplices: empty spheres, and a volume that is the hull's. */
-#include "preprocess/simplices.h"
+#include "preprocess/examples/simplices.h"
 #include "runtime/core/base/random.h"
 #include "tests/check.h"
 

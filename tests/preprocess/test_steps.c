@@ -1,6 +1,6 @@
 /* Actions cut from generated clips: closed forms, sign conventions, mirroring, tiling. */
-#include "preprocess/annotate.h"
-#include "preprocess/standing.h"
+#include "preprocess/actions/annotate.h"
+#include "preprocess/motion/standing.h"
 
 #include "mocap/generator/generator.h"
 #include "tests/preprocess/clip_change.h"

@@ -1,6 +1,6 @@
 /* Steps cut from captured clips, checked from the poses: at its start one foot stands, at its end the other one has just
  * come to stand. */
-#include "preprocess/annotate.h"
+#include "preprocess/actions/annotate.h"
 
 #include "mocap/load.h"
 #include "tests/check.h"

@@ -1,0 +1,175 @@
+/* gait_knees.c - knees neither stop nor start within a frame: where a foot lifts or lands, where a leg comes to its reach, where hips
+ * have a jerk. What is needed for it are millimetres: of hips, or between a leg's end and its foot in the air. */
+#include "runtime/core/gait/gait_knees.h"
+
+#include "runtime/core/gait/gait_hips.h"
+
+#define KNEE_QUICK (24000.0 * FF_DEG) /* rad/s2 */
+#define KNEE_LANDS (150.0 * FF_DEG)   /* rad/s */
+#define STRIKES (5.0 * FF_DEG)        /* pitch of a foot whose heel comes down first */
+#define LANDING_FROM 0.5              /* of the swing, from where on its end is looked at */
+#define GIVE_ENDS 0.5                 /* of the swing */
+#define MOST_GIVE 0.02                /* m */
+#define MOST_LIFT 0.012               /* m, of hips within a step */
+#define LEAST_BEND (8.0 * FF_DEG)     /* of a planted knee that takes its time to stop */
+#define LEAST_RAISED 0.002            /* rad: less is rounding */
+#define SOLE 0.003                    /* m, by which one yields */
+
+double ff_gait_time_left(const ff_gait_foot *state)
+{
+    return state->elapsed * (1.0 - state->progress) / state->progress;
+}
+
+/* The bend of a knee between two bones whose ends are this far from each other, and back. */
+static double bend_at(double distance, double thigh, double shank)
+{
+    double cosine = (distance * distance - thigh * thigh - shank * shank) / (2.0 * thigh * shank);
+    return ff_acos(cosine);
+}
+
+static double distance_at(double bend, double thigh, double shank)
+{
+    return sqrt(thigh * thigh + shank * shank + 2.0 * thigh * shank * ff_cos(bend));
+}
+
+/* Knees are looked after while a foot stands, where it leaves the ground and where it comes back. */
+static bool minds_knee(const ff_gait *gait, int foot)
+{
+    const ff_gait_foot *state = &gait->foot[foot];
+    if (!state->planted) return state->progress < GIVE_ENDS || ff_gait_time_left(state) < FF_LANDS_WITHIN;
+    return gait->blend.way == FF_RUNNING || gait->mode == FF_GAIT_STEP;
+}
+
+/* A foot that lands stops at once, and with it the knee if the leg was still stretching towards it: the part of that which is
+ * quicker than KNEE_LANDS is done before. Where a foot takes up its swing the knee may have to turn round within a moment: it does
+ * so no faster than KNEE_QUICK. For a moment the leg is longer, and its foot lower, than the swing has it. */
+static double eased_bend(const ff_gait_foot *state, double bend, double at_landing, double dt)
+{
+    if (!(state->knee > 0.0)) return bend; /* nothing is known of it yet */
+    if (state->progress < LANDING_FROM) {
+        double most = KNEE_QUICK * dt, speed = (bend - state->knee) / dt;
+        double slow = ff_clamp(speed, state->knee_speed - most, state->knee_speed + most);
+        return ff_lerp(state->knee + slow * dt, bend, ff_smooth(1.0 - (GIVE_ENDS - state->progress) / 0.15));
+    }
+    double left = ff_gait_time_left(state), share = 1.0 - left / FF_LANDS_WITHIN;
+    if (share <= 0.0) return bend;
+    share *= share * ff_smooth(1.0 - state->pitch / STRIKES);
+    return bend - ff_max(bend - at_landing - KNEE_LANDS * left, 0.0) * share;
+}
+
+/* A leg as it is to its foot. */
+typedef struct leg_now {
+    ff_vec3 leg; /* from ankle to hip */
+    double far, distance, bend;
+    double raised; /* rad, of the heel, to be in reach */
+} leg_now;
+
+static leg_now leg_as_is(const ff_body_frame *body, const ff_gait_foot *state, int foot, const ff_limb *limb)
+{
+    double thigh = body->thigh[foot], shank = body->shank[foot];
+    ff_leg_target target = ff_gait_leg_target(state, limb->turn);
+    leg_now now = {.leg = ff_sub3(limb->hip, ff_leg_ankle(body, foot, &target, limb->hip, &target.turn))};
+    now.far = ff_length3(now.leg);
+    now.distance = ff_leg_soft_reach(now.far, thigh + shank);
+    now.bend = bend_at(now.distance, thigh, shank);
+    double raised = ff_quat_angle(ff_quat_mul(ff_quat_conj(limb->turn), target.turn));
+    now.raised = raised > LEAST_RAISED ? raised : 0.0;
+    return now;
+}
+
+/* How much longer a leg must be for its knee to have this bend. */
+static double longer_by(const ff_body_frame *body, int foot, const leg_now *now, double bend)
+{
+    double thigh = body->thigh[foot], shank = body->shank[foot];
+    double distance = distance_at(ff_max(bend, LEAST_BEND), thigh, shank);
+    return ff_leg_hard_reach(distance, thigh + shank) - now->far;
+}
+
+/* How much longer a leg is for every metre that its hip is higher. */
+static double per_height(const leg_now *now)
+{
+    return ff_max(now->leg.y, 0.5 * now->far) / now->far;
+}
+
+/* Between which heights, from here, hips must be for the knee of a planted leg neither to stop nor to start within a frame. A leg at
+ * its reach, whose heel is raised, is not longer for hips that are higher: ease_planted sees to it. */
+static void narrow_lift(const ff_body_frame *body, const ff_gait_foot *state, int foot, const leg_now *now,
+                        double dt, double range[2])
+{
+    double next = state->knee + state->knee_speed * dt, most = KNEE_QUICK * dt * dt;
+    if (now->bend > next + most && now->raised <= 0.0)
+        range[0] = ff_max(range[0], longer_by(body, foot, now, next + most) / per_height(now));
+    if (now->bend < next - most)
+        range[1] = ff_min(range[1], longer_by(body, foot, now, next - most) / per_height(now));
+}
+
+static double lift_for_knees(const ff_body_frame *body, ff_gait *gait, const ff_limb limbs[2], double dt)
+{
+    double range[2] = {-1.0, 1.0};
+    if (gait->blend.way == FF_RUNNING) return 0.0; /* captured runs are quicker than that */
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_gait_foot *state = &gait->foot[foot];
+        if (!state->planted || !(state->knee > 0.0) || !minds_knee(gait, foot)) continue;
+        state->give = 0.0;
+        leg_now now = leg_as_is(body, state, foot, &limbs[foot]);
+        narrow_lift(body, state, foot, &now, dt, range);
+    }
+    double lift = range[0] > range[1] ? 0.5 * (range[0] + range[1]) : ff_clamp(0.0, range[0], range[1]);
+    return ff_clamp(lift, -MOST_LIFT, MOST_LIFT);
+}
+
+static void ease_flying(const ff_body_frame *body, ff_gait_foot *state, int foot, const ff_limb *limb,
+                        double dt, leg_now *now)
+{
+    double thigh = body->thigh[foot], shank = body->shank[foot];
+    double landing = bend_at(ff_leg_soft_reach(ff_length3(limb->landing), thigh + shank), thigh, shank);
+    double give = distance_at(eased_bend(state, now->bend, landing, dt), thigh, shank) - now->distance;
+    double room = (state->now.height - body->ball_rest + SOLE) / per_height(now);
+    state->give = ff_clamp(give, -MOST_GIVE, ff_clamp(room, 0.0, MOST_GIVE));
+    now->bend = bend_at(now->distance + state->give, thigh, shank);
+}
+
+/* A leg that comes to its reach stretches a little further before its heel comes up. */
+static void ease_planted(const ff_body_frame *body, ff_gait_foot *state, int foot, const ff_limb *limb,
+                         double dt, leg_now *now)
+{
+    double most = state->knee + (state->knee_speed + KNEE_QUICK * dt) * dt;
+    if (now->raised > 0.0 && state->knee > 0.0 && now->bend > most) {
+        state->give = ff_clamp(longer_by(body, foot, now, most), 0.0, MOST_GIVE);
+        *now = leg_as_is(body, state, foot, limb);
+    }
+    state->raised = now->raised;
+}
+
+static void ease_knee(const ff_body_frame *body, ff_gait_foot *state, int foot, const ff_limb *limb,
+                      double dt)
+{
+    state->give = 0.0;
+    leg_now now = leg_as_is(body, state, foot, limb);
+    if (state->planted)
+        ease_planted(body, state, foot, limb, dt, &now);
+    else
+        ease_flying(body, state, foot, limb, dt, &now);
+    state->knee_speed = state->knee > 0.0 ? (now.bend - state->knee) / dt : 0.0;
+    state->knee = now.bend;
+}
+
+static void forget_knee(ff_gait_foot *state)
+{
+    state->knee = state->knee_speed = state->give = 0.0;
+    if (state->planted) state->raised = 0.0;
+}
+
+void ff_gait_ease_knees(const ff_body_frame *body, ff_gait *gait, ff_limb limbs[2], double dt)
+{
+    double lift = lift_for_knees(body, gait, limbs, dt);
+    gait->hips_drop -= lift;
+    for (int foot = 0; foot < 2; ++foot) {
+        limbs[foot].hip.y += lift;
+        limbs[foot].landing.y += lift;
+        if (minds_knee(gait, foot))
+            ease_knee(body, &gait->foot[foot], foot, &limbs[foot], dt);
+        else
+            forget_knee(&gait->foot[foot]);
+    }
+}

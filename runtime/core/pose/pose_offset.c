@@ -1,0 +1,117 @@
+#include "runtime/core/pose/pose_offset.h"
+
+#include <string.h>
+
+enum { BODY, FOOT, LEGS = FOOT + 2 }; /* of ff_pose_offset.time */
+#define LEAST_TIME 0.02               /* s, that a foot gets at least */
+
+/* How much is left of a difference, and of its speed (s): the cubic that begins with both and ends with neither. The
+ * study found it and the quintic alike (section 6, last table), the cubic with the smaller peaks. */
+static void shares(const ff_pose_offset *offset, int part, double *place, double *speed)
+{
+    double time = (double)offset->time[part];
+    *place = *speed = 0.0;
+    if (!(offset->age < time)) return;
+    double t = offset->age / time, rest = 1.0 - t;
+    *place = rest * rest * (1.0 + 2.0 * t);
+    *speed = rest * rest * t * time;
+}
+
+static void put3(float place[3], float speed[3], ff_vec3 now, ff_vec3 later, double h)
+{
+    const double at[3] = {now.x, now.y, now.z}, then[3] = {later.x, later.y, later.z};
+    for (int i = 0; i < 3; ++i) {
+        place[i] = (float)at[i];
+        speed[i] = (float)((then[i] - at[i]) / h);
+    }
+}
+
+static void difference(const ff_pose_foot *p, const ff_pose_foot *q, double out[5])
+{
+    out[0] = p->forward - q->forward;
+    out[1] = p->left - q->left;
+    out[2] = p->height - q->height;
+    out[3] = ff_wrap(p->yaw - q->yaw);
+    out[4] = ff_wrap(p->pitch - q->pitch);
+}
+
+static ff_vec3 turned(ff_quat p, ff_quat q)
+{
+    return ff_quat_log(ff_quat_mul(p, ff_quat_conj(q)));
+}
+
+static void begin_foot(ff_pose_offset *offset, const ff_pose_switch *change, int foot)
+{
+    double now[5], later[5];
+    difference(&change->old_now->foot[foot], &change->new_now->foot[foot], now);
+    difference(&change->old_later->foot[foot], &change->new_later->foot[foot], later);
+    for (int i = 0; i < 5; ++i) {
+        offset->foot[foot][0][i] = (float)now[i];
+        offset->foot[foot][1][i] = (float)((later[i] - now[i]) / change->later);
+    }
+    offset->time[FOOT + foot] = (float)ff_clamp(change->until[foot], LEAST_TIME, FF_POSE_OFFSET_TIME);
+}
+
+void ff_pose_offset_begin(ff_pose_offset *offset, const ff_pose_switch *change)
+{
+    const ff_pose_targets *from = change->old_now, *to = change->new_now;
+    const ff_pose_targets *from_later = change->old_later, *to_later = change->new_later;
+    memset(offset, 0, sizeof *offset);
+    offset->time[BODY] = offset->time[LEGS] = (float)FF_POSE_OFFSET_TIME;
+    put3(offset->hips[0], offset->hips[1], ff_sub3(from->hips, to->hips),
+         ff_sub3(from_later->hips, to_later->hips), change->later);
+    for (int joint = 0; joint < FF_JOINT_COUNT; ++joint)
+        put3(offset->turn[0][joint], offset->turn[1][joint], turned(from->turn[joint], to->turn[joint]),
+             turned(from_later->turn[joint], to_later->turn[joint]), change->later);
+    for (int foot = 0; foot < 2; ++foot)
+        begin_foot(offset, change, foot);
+}
+
+void ff_pose_offset_advance(ff_pose_offset *offset, double dt)
+{
+    offset->age += dt;
+    if (!(offset->age < (double)offset->time[BODY])) memset(offset, 0, sizeof *offset);
+}
+
+static ff_vec3 mix(const ff_pose_offset *offset, int part, const float place[3], const float speed[3])
+{
+    double p, s;
+    shares(offset, part, &p, &s);
+    return ff_v3(p * (double)place[0] + s * (double)speed[0], p * (double)place[1] + s * (double)speed[1],
+                 p * (double)place[2] + s * (double)speed[2]);
+}
+
+ff_vec3 ff_pose_offset_hips(const ff_pose_offset *offset)
+{
+    return mix(offset, BODY, offset->hips[0], offset->hips[1]);
+}
+
+ff_pose_foot ff_pose_offset_foot(const ff_pose_offset *offset, int foot)
+{
+    const float(*part)[5] = offset->foot[foot];
+    double p, s, sum[5];
+    shares(offset, FOOT + foot, &p, &s);
+    for (int i = 0; i < 5; ++i)
+        sum[i] = p * (double)part[0][i] + s * (double)part[1][i];
+    return (ff_pose_foot){sum[0], sum[1], sum[2], sum[3], sum[4]};
+}
+
+ff_quat ff_pose_offset_turn(const ff_pose_offset *offset, int joint, ff_quat rotation)
+{
+    int part = joint < FF_JOINT_HIP_L ? BODY : LEGS;
+    ff_vec3 turn = mix(offset, part, offset->turn[0][joint], offset->turn[1][joint]);
+    return ff_quat_unit(ff_quat_mul(ff_quat_exp(turn), rotation));
+}
+
+void ff_pose_offset_apply(const ff_pose_offset *offset, ff_pose_targets *targets)
+{
+    if (!ff_pose_offset_active(offset)) return;
+    targets->hips = ff_add3(targets->hips, ff_pose_offset_hips(offset));
+    for (int foot = 0; foot < 2; ++foot) {
+        ff_pose_foot add = ff_pose_offset_foot(offset, foot), *to = &targets->foot[foot];
+        *to = (ff_pose_foot){to->forward + add.forward, to->left + add.left, to->height + add.height,
+                             to->yaw + add.yaw, to->pitch + add.pitch};
+    }
+    for (int joint = 0; joint < FF_JOINT_COUNT; ++joint)
+        targets->turn[joint] = ff_pose_offset_turn(offset, joint, targets->turn[joint]);
+}
