@@ -92,7 +92,7 @@ static const contact_row rows[] = {
      .density = 0.1,
      .share = 20},
 };
-enum { ROWS = sizeof rows / sizeof rows[0], SHOTS = 3 };
+enum { ROWS = sizeof rows / sizeof rows[0] };
 
 typedef struct contacts {
     const ff_bench_options *options;
@@ -205,25 +205,11 @@ static ff_status run_row(contacts *all, contact_row *row, ff_progress *progress,
 /* Pictures of four who cross, by either method with hardly any time. */
 static ff_status draw_four(contacts *all, const contact_row *row, const char *path, ff_error *error)
 {
-    static const char *const when[SHOTS] = {"setting out", "crossing", "past each other"};
-    ff_plan_scene shots[SHOTS] = {{0}};
-    char title[64];
-    snprintf(title, sizeof title, "Four who cross, %s",
-             row->method[0] == 'p' ? "as in the paper, 20 nodes" : "ours, 1 ms");
-    for (int i = 0; i < SHOTS; ++i) {
-        shots[i].title = title;
-        shots[i].subtitle = when[i];
-    }
-    ff_walk_trial trial = trial_of(all, row, all->options->first_seed);
-    trial.seconds = 8.0;
-    trial.shots = shots;
-    trial.shot_count = SHOTS;
-    ff_walk_measures measures;
-    ff_status status = ff_walk_trial_run(all->pack, all->figure, &trial, &measures, error);
-    if (status == FF_OK) status = ff_plan_picture_write(path, shots, SHOTS, error);
-    for (int i = 0; i < SHOTS; ++i)
-        ff_plan_scene_free(&shots[i]);
-    return status;
+    static const char *const when[FF_WALK_SHOTS] = {"setting out", "crossing", "past each other"};
+    const char *title =
+        row->method[0] == 'p' ? "Four who cross, as in the paper, 20 nodes" : "Four who cross, ours, 1 ms";
+    return ff_walk_trial_draw(all->pack, all->figure, trial_of(all, row, all->options->first_seed), title,
+                              when, path, error);
 }
 
 static void print_rows(const contacts *all)

@@ -192,20 +192,9 @@ static ff_status draw_bars(const mixed *all, const char *path, ff_error *error)
 /* Three moments of the first seed of the first mixed crowd that was walked. */
 static ff_status draw_crowd(const mixed *all, const char *path, ff_error *error)
 {
-    enum { SHOTS = 3 };
-    ff_plan_scene shots[SHOTS] = {{0}};
-    for (int i = 0; i < SHOTS; ++i)
-        shots[i].title = "A mixed crowd: prints and plans of those on footsteps";
-    ff_walk_trial trial = trial_of(all, &all->row[0], all->options->common.first_seed);
-    trial.seconds = 8.0;
-    trial.shots = shots;
-    trial.shot_count = SHOTS;
-    ff_walk_measures measures;
-    ff_status status = ff_walk_trial_run(all->pack, all->figure, &trial, &measures, error);
-    if (status == FF_OK) status = ff_plan_picture_write(path, shots, SHOTS, error);
-    for (int i = 0; i < SHOTS; ++i)
-        ff_plan_scene_free(&shots[i]);
-    return status;
+    return ff_walk_trial_draw(all->pack, all->figure,
+                              trial_of(all, &all->row[0], all->options->common.first_seed),
+                              "A mixed crowd: prints and plans of those on footsteps", NULL, path, error);
 }
 
 static ff_status write_files(const mixed *all, ff_error *error)

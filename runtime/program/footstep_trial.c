@@ -15,7 +15,8 @@
 #define ABREAST 6     /* of a stream */
 #define ROW_GAP 1.1   /* m, of a stream both ways, give or take ROW_OFF */
 #define ROW_OFF 0.15
-#define STREAM_FAR 3.0 /* m from the middle to the front row */
+#define STREAM_FAR 3.0    /* m from the middle to the front row */
+#define DRAWN_SECONDS 8.0 /* by then everybody in a picture has met everybody */
 
 typedef struct walker {
     ff_agent agent;
@@ -301,5 +302,25 @@ ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const 
     free(r.frame);
     free(r.work);
     free(r.matrices);
+    return status;
+}
+
+ff_status ff_walk_trial_draw(const ff_pack *pack, const ff_figure *figure, ff_walk_trial trial,
+                             const char *title, const char *const when[FF_WALK_SHOTS], const char *path,
+                             ff_error *error)
+{
+    ff_plan_scene shots[FF_WALK_SHOTS] = {{0}};
+    ff_walk_measures measures;
+    for (int i = 0; i < FF_WALK_SHOTS; ++i) {
+        shots[i].title = title;
+        shots[i].subtitle = when ? when[i] : NULL;
+    }
+    trial.seconds = DRAWN_SECONDS;
+    trial.shots = shots;
+    trial.shot_count = FF_WALK_SHOTS;
+    ff_status status = ff_walk_trial_run(pack, figure, &trial, &measures, error);
+    if (status == FF_OK) status = ff_plan_picture_write(path, shots, FF_WALK_SHOTS, error);
+    for (int i = 0; i < FF_WALK_SHOTS; ++i)
+        ff_plan_scene_free(&shots[i]);
     return status;
 }

@@ -60,4 +60,11 @@ typedef struct ff_walk_measures {
 ff_status ff_walk_trial_run(const ff_pack *pack, const ff_figure *figure, const ff_walk_trial *trial,
                             ff_walk_measures *out, ff_error *error);
 
+enum { FF_WALK_SHOTS = 3 };
+/* The trial's first seconds as a picture of three moments from above, with plans and prints, under one title; when: what is said
+ * under each, or NULL. */
+ff_status ff_walk_trial_draw(const ff_pack *pack, const ff_figure *figure, ff_walk_trial trial,
+                             const char *title, const char *const when[FF_WALK_SHOTS], const char *path,
+                             ff_error *error);
+
 #endif

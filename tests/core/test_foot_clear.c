@@ -4,7 +4,7 @@
 #include "runtime/core/base/random.h"
 #include "runtime/core/gait/synth.h"
 #include "runtime/export/gait_meter.h"
-#include "tests/built_in_open.h"
+#include "tests/core/built_in_space.h"
 
 #define HZ 60
 #define DT (1.0 / HZ)
@@ -12,7 +12,6 @@
 #define SPEED_UP (3.0 * DT) /* m/s and rad/s in a step: somewhat faster than people */
 #define TURN_UP (6.0 * DT)
 
-static ff_blend_space *space;
 static ff_figure figure;
 static ff_gait_standard standard;
 
@@ -115,17 +114,10 @@ static void feet_keep_clear_of_each_other_and_of_the_floor_while_ways_change(voi
 static int set_up(void **state)
 {
     ff_error error;
-    open_pack(state);
-    FF_ASSERT_OK(ff_blend_space_create(pack, &space, &error), error);
+    open_space(state);
     FF_ASSERT_OK(ff_figure_from_pack(pack, &figure, &error), error);
     FF_ASSERT_OK(ff_gait_standard_make(pack, &figure, DT, &standard, &error), error);
     return 0;
-}
-
-static int tear_down(void **state)
-{
-    ff_blend_space_destroy(space);
-    return close_pack(state);
 }
 
 int main(void)
@@ -135,5 +127,5 @@ int main(void)
         cmocka_unit_test(feet_keep_clear_of_each_other_and_of_the_floor_on_the_clip),
         cmocka_unit_test(feet_keep_clear_of_each_other_and_of_the_floor_while_ways_change),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, close_space);
 }

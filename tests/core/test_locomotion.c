@@ -2,14 +2,12 @@
 #define _GNU_SOURCE
 #include "runtime/core/base/random.h"
 #include "runtime/core/gait/synth_state.h"
-#include "tests/built_in_open.h"
+#include "tests/core/built_in_space.h"
 #include "tests/core/walker_pack.h"
 
 #define HZ 60
 #define DT (1.0 / HZ)
 #define MOST 1200 /* steps of a walk */
-
-static ff_blend_space *space;
 
 typedef struct step {
     ff_vec3 at[FF_JOINT_COUNT];
@@ -464,20 +462,6 @@ static void what_the_state_holds_is_all_there_is(void **state)
     assert_true(one.gait.switches > 3);
 }
 
-static int set_up(void **state)
-{
-    ff_error error;
-    open_pack(state);
-    FF_ASSERT_OK(ff_blend_space_create(pack, &space, &error), error);
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    ff_blend_space_destroy(space);
-    return close_pack(state);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -495,5 +479,5 @@ int main(void)
         cmocka_unit_test(runs_and_walks_are_never_blended),
         cmocka_unit_test(what_the_state_holds_is_all_there_is),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, open_space, close_space);
 }
