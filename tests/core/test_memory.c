@@ -81,6 +81,16 @@ static void an_array_keeps_its_elements_while_it_grows(void **state)
     ff_array_free(&array);
 }
 
+static void an_array_grows_by_nothing_too(void **state)
+{
+    (void)state;
+    ff_array array = {0};
+    assert_non_null(ff_array_grow(&array, 0, 16));
+    assert_int_equal(array.count, 0);
+    assert_ptr_equal(ff_array_grow(&array, 1, 16), array.data);
+    ff_array_free(&array);
+}
+
 static void calloc_accepts_nothing_and_refuses_too_much(void **state)
 {
     (void)state;
@@ -98,6 +108,7 @@ int main(void)
         cmocka_unit_test(releasing_to_a_mark_gives_the_same_place_again_and_the_peak_stays),
         cmocka_unit_test(sizes_that_overflow_are_refused),
         cmocka_unit_test(an_array_keeps_its_elements_while_it_grows),
+        cmocka_unit_test(an_array_grows_by_nothing_too),
         cmocka_unit_test(calloc_accepts_nothing_and_refuses_too_much),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

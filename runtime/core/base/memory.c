@@ -36,7 +36,7 @@ void *ff_array_grow(ff_array *array, size_t extra, size_t elem_size)
 {
     if (extra > SIZE_MAX / elem_size - array->count) return NULL;
     size_t need = array->count + extra;
-    if (need > array->capacity) {
+    if (need > array->capacity || !array->data) { /* none of no elements is still an answer, not a lack */
         size_t capacity = array->capacity < SIZE_MAX / 2 / elem_size ? array->capacity * 2 : need;
         if (capacity < need) capacity = need;
         if (capacity < 16 && 16 <= SIZE_MAX / elem_size) capacity = 16;

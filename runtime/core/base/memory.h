@@ -32,7 +32,7 @@ typedef struct ff_array {
 } ff_array;
 
 /* Make room for extra more elements and count them in; returns the first new one (uninitialised), or NULL when
- * memory is short or the size overflows (the array is then unchanged). */
+ * memory is short or the size overflows (the array is then unchanged); never NULL for want of elements. */
 void *ff_array_grow(ff_array *array, size_t extra, size_t elem_size);
 void ff_array_free(ff_array *array);
 
