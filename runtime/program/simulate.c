@@ -177,6 +177,11 @@ ff_status ff_simulate(ff_simulation *simulation, ff_error *error)
     if (status == FF_OK) status = run_steps(simulation, crowd, agents, error);
     if (status == FF_OK) status = count_synthesis(crowd, (ff_agent){0, 0}, &simulation->synthesis, error);
     if (status == FF_OK) status = ff_skate_finish(&simulation->watch.skate, error);
+    if (status == FF_OK && ff_scene_agent_count(scene) == 0)
+        status = ff_fail(
+            error, FF_ERR_NO_DATA,
+            "nobody has come into the scene within %g s, so there is nothing to show; run it for longer",
+            scene->seconds);
     if (status == FF_OK) {
         ff_recording_trim(&simulation->recording, ff_scene_agent_count(scene));
         simulation->state_hash = ff_crowd_state_hash(crowd);

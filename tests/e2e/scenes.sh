@@ -90,6 +90,12 @@ the_khronos_validator_finds_no_error() {
     scripts/validate-glb.sh --installed "$work"/circle/crowd.glb "$work"/bidirectional/crowd.glb "$work"/leave/crowd.glb
 }
 
+a_run_to_which_nobody_comes_says_so() {
+    run 1 "$crowd" run runtime/scenes/course.json --pack "$builtin" --out "$work/nobody" --seconds 0.2 --quiet &&
+        says err "nobody has come into the scene within 0.2 s" || return 1
+    [ -z "$(ls "$work/nobody")" ] || { echo "files were left:" && ls "$work/nobody" && return 1; }
+}
+
 test_that "the circle runs" scene_runs circle 17
 test_that "the two-way crossflow runs" scene_runs two-way 30
 test_that "the bidirectional flow runs" scene_runs bidirectional 53
@@ -104,6 +110,7 @@ test_that "the example of runtime/scenes/README.md runs" the_example_of_the_read
 test_that "a scene of kilometres is drawn" a_scene_of_kilometres_is_drawn
 test_that "another number of agents needs a scene that makes them" another_number_of_agents_needs_a_scene_that_makes_them
 test_that "a crowd that does not fit is refused" a_crowd_that_does_not_fit_is_refused
+test_that "a run to which nobody comes says so" a_run_to_which_nobody_comes_says_so
 test_that "an output folder that cannot be made is an error" an_output_folder_that_cannot_be_made_is_an_error
 scripts/validate-glb.sh --installed /dev/null >"$work/validator" 2>&1
 if [ $? -eq 3 ]; then
