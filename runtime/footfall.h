@@ -495,7 +495,7 @@ enum { FF_WAYPOINTS_MAX = 8 };
 ff_status ff_crowd_set_waypoints(ff_crowd *crowd, ff_agent agent, const ff_vec2 *points, uint32_t count,
                                  ff_error *error);
 
-/* Things in the way. Who moves by footsteps sees them all; who moves by velocity sees those that do not move, as walls. */
+/* Things in the way. Who moves by footsteps sees them all; who moves by velocity avoids them all, whatever their height. */
 typedef enum ff_obstacle_kind {
     FF_OBSTACLE_STATIC, /* fixed once the first step was taken */
     FF_OBSTACLE_PATH,   /* moves on a path that everybody knows */

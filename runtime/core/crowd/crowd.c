@@ -138,8 +138,8 @@ static ff_status check_crowd_def(const ff_pack *pack, const ff_crowd_def *def, f
 
 static size_t memory_needed(const ff_crowd_def *def)
 {
-    return ((size_t)def->max_obstacles + 1) * sizeof(ff_crowd_obstacle) + 64 + ff_crowd_arrays_bytes(def) +
-           ff_grid_bytes(def->max_agents) + ff_walls_bytes(def->max_walls);
+    return ((size_t)def->max_obstacles + 1) * (sizeof(ff_crowd_obstacle) + sizeof(ff_nav_mover)) + 128 +
+           ff_crowd_arrays_bytes(def) + ff_grid_bytes(def->max_agents) + ff_walls_bytes(def->max_walls);
 }
 
 /* Everything that is sized by the definition. */
@@ -148,7 +148,8 @@ static bool take_memory(ff_crowd *crowd)
     const ff_crowd_def *def = &crowd->def;
     crowd->obstacles =
         ff_arena_push(&crowd->arena, (size_t)def->max_obstacles + 1, sizeof *crowd->obstacles, 64);
-    return crowd->obstacles && ff_crowd_arrays_init(crowd, &crowd->arena) &&
+    crowd->movers = ff_arena_push(&crowd->arena, (size_t)def->max_obstacles + 1, sizeof *crowd->movers, 64);
+    return crowd->obstacles && crowd->movers && ff_crowd_arrays_init(crowd, &crowd->arena) &&
            ff_grid_init(&crowd->grid, def->max_agents, &crowd->arena) &&
            ff_walls_init(&crowd->walls, def->max_walls, &crowd->arena);
 }

@@ -214,9 +214,29 @@ bool ff_obstacle_is_evaded(const ff_crowd_obstacle *obstacle)
            ff_dot2(obstacle->velocity, obstacle->velocity) > 0.0;
 }
 
+/* As those see it who go by velocity. Where a path begins again somewhere else nothing moves there: it is as if it ended. */
+static ff_nav_mover mover_of(const ff_crowd_obstacle *obstacle, double time)
+{
+    const ff_shape *shape = &obstacle->shape;
+    ff_nav_mover mover = {.ahead = ff_fwd2(shape->heading),
+                          .half_length = shape->half_length,
+                          .half_width = shape->half_width,
+                          .radius = shape->radius};
+    mover.path.at[0] = shape->centre;
+    for (int i = 1; i < FF_PATH_POINTS; ++i) {
+        ff_vec2 before = mover.path.at[i - 1], next = ff_madd2(before, obstacle->velocity, FF_PATH_STEP);
+        if (obstacle->kind == FF_OBSTACLE_PATH) next = on_path(obstacle, time + i * FF_PATH_STEP);
+        ff_vec2 way = ff_sub2(next, before);
+        bool moves = ff_dot2(way, way) <= FASTEST * FASTEST * FF_PATH_STEP * FF_PATH_STEP;
+        mover.path.at[i] = moves ? next : before;
+    }
+    return mover;
+}
+
 void ff_obstacles_step(ff_crowd *crowd)
 {
     double time = ff_crowd_time(crowd), step = crowd->def.step;
+    crowd->mover_count = 0;
     for (uint32_t i = 0; i < crowd->obstacle_count; ++i) {
         ff_crowd_obstacle *obstacle = &crowd->obstacles[i];
         if (obstacle->kind == FF_OBSTACLE_PATH) {
@@ -229,5 +249,7 @@ void ff_obstacles_step(ff_crowd *crowd)
         if (ff_dot2(obstacle->velocity, obstacle->velocity) > FASTEST * FASTEST)
             obstacle->velocity = ff_v2(0.0, 0.0);
         obstacle->before = obstacle->shape.centre;
+        if (obstacle->kind != FF_OBSTACLE_STATIC)
+            crowd->movers[crowd->mover_count++] = mover_of(obstacle, time);
     }
 }

@@ -29,6 +29,8 @@ struct ff_crowd {
     ff_behaviour *behaviour;      /* NULL: agents have goals only */
     ff_footsteps *footsteps;      /* NULL: nobody moves by footsteps */
     ff_crowd_obstacle *obstacles; /* [max_obstacles] */
+    ff_nav_mover *movers;         /* [max_obstacles], of this step: those that are not fixed */
+    uint32_t mover_count;
     uint32_t obstacle_count;
     uint32_t stepper_count; /* agents who move by footsteps in this step */
     ff_crowd_timings timings;

@@ -159,8 +159,8 @@ static void navigate(ff_crowd *crowd, uint32_t index)
     bool clip = crowd->gaits[slot].blend.way == FF_SEMI_PROCEDURAL &&
                 crowd->traits[slot].preferred_speed <= FF_RUN_PREFERRED;
     const ff_hull *hull = clip ? &crowd->clip_hull : &crowd->hull;
-    ff_nav_world world = {&crowd->grid,    &crowd->walls,    hull, &def->mcn, def->step,
-                          def->keep_right, def->mcn.padding, NULL};
+    ff_nav_world world = {&crowd->grid,    &crowd->walls,    hull, &def->mcn,     def->step,
+                          def->keep_right, def->mcn.padding, NULL, crowd->movers, crowd->mover_count};
     if (crowd->footsteps) world.paths = crowd->footsteps->paths;
     if (baseline(crowd, slot)) {
         world.keep_right = def->baseline.keep_right;

@@ -74,7 +74,9 @@ static void gather(const ff_nav_view *view, const ff_nav_body *body, ff_vec2 pre
     lines->count = lines->hard;
     double keep_right = view->world->keep_right;
     double lean = keep_right > 0.0 ? LEAN : (keep_right < 0.0 ? -LEAN : 0.0);
-    ff_nav_add_agents(view, (ff_avoiding){mcn->prediction, mcn->lean ? lean : 0.0, mcn->weighted}, lines);
+    ff_avoiding how = {mcn->prediction, mcn->lean ? lean : 0.0, mcn->weighted};
+    ff_nav_add_movers(view, mcn->prediction, lines);
+    ff_nav_add_agents(view, how, lines);
 }
 
 ff_mind ff_mind_new(double heading)

@@ -5,6 +5,7 @@
 
 #include "runtime/core/nav/nav_grid.h"
 #include "runtime/core/nav/nav_hull.h"
+#include "runtime/core/nav/nav_movers.h"
 #include "runtime/core/nav/nav_stance.h"
 #include "runtime/core/nav/nav_walls.h"
 
@@ -56,6 +57,8 @@ typedef struct ff_nav_world {
     double keep_right;    /* rad, by which people turn aside for those they meet; negative = to the left */
     double padding;       /* m per disc, in forces and constraints */
     const ff_path *paths; /* by slot, of those who are firm; NULL: nobody is */
+    const ff_nav_mover *movers; /* obstacles that move */
+    uint32_t mover_count;
 } ff_nav_world;
 
 /* What synthesis has made of the last decision. */

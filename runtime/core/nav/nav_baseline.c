@@ -10,6 +10,7 @@ ff_vec2 ff_nav_orca(const ff_nav_view *view, ff_vec2 preferred)
     ff_constraints lines;
     ff_circle circle = {ff_v2(0.0, 0.0), view->speed_max};
     ff_nav_add_walls(view, &lines);
+    ff_nav_add_movers(view, 0.0, &lines);
     ff_nav_add_agents(view, (ff_avoiding){0}, &lines);
     return ff_nav_solve(&lines, circle, circle, preferred);
 }

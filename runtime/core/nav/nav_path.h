@@ -13,6 +13,9 @@ typedef struct ff_path_meeting {
     double time;      /* s from now until they touch; INFINITY: they do not */
 } ff_path_meeting;
 
+/* Where it is in `time` s from now; it stays at its first and last point before and after. */
+ff_vec2 ff_path_at(const ff_path *path, double time);
+
 ff_path_meeting ff_path_meet(const ff_path *path, const ff_seen *me, double ahead);
 
 #endif

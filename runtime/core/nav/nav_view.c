@@ -27,6 +27,7 @@ void ff_nav_look(const ff_nav_world *world, uint32_t self, const ff_neighbour *n
     out->neighbours = neighbours;
     out->neighbour_count = count;
     out->wall_count = ff_walls_near(world->walls, out->me->position, WALL_REACH, out->walls);
+    out->mover_count = ff_movers_see(world->movers, world->mover_count, out->me, out->movers);
 }
 
 ff_vec2 ff_nav_forces(const ff_nav_view *view, double one, double total)
@@ -43,6 +44,8 @@ ff_vec2 ff_nav_forces(const ff_nav_view *view, double one, double total)
         sum = ff_add2(
             sum, ff_force_from_disc(x, ff_sub2(me->velocity, other->velocity), reach, one, apart(me, other)));
     }
+    for (uint32_t i = 0; i < view->mover_count; ++i)
+        sum = ff_add2(sum, ff_force_from_mover(&view->movers[i], me, me->radius + padding, one));
     return ff_shorten2(sum, total);
 }
 
@@ -93,6 +96,14 @@ static ff_line avoid(const ff_nav_view *view, const ff_neighbour *neighbour, ff_
     if (!me->standing && ff_dot2(ff_sub2(other->position, me->position), me->velocity) < 0.0)
         line.weight *= BEHIND;
     return line;
+}
+
+void ff_nav_add_movers(const ff_nav_view *view, double prediction, ff_constraints *lines)
+{
+    for (uint32_t i = 0; i < view->mover_count; ++i)
+        lines->count =
+            ff_mover_lines(&view->movers[i], view->me, view->me->radius + view->world->padding, prediction,
+                           ff_max(view->world->step, OVERLAP_TIME), lines->line, lines->count);
 }
 
 void ff_nav_add_agents(const ff_nav_view *view, ff_avoiding how, ff_constraints *lines)

@@ -18,6 +18,8 @@ typedef struct ff_nav_view {
     uint32_t neighbour_count;
     const ff_wall *walls[FF_NEAR_WALLS_MAX];
     uint32_t wall_count;
+    ff_mover_seen movers[FF_MOVERS_SEEN_MAX];
+    uint32_t mover_count;
     double speed_max; /* m/s, that may be asked for at all */
 } ff_nav_view;
 
@@ -38,11 +40,12 @@ typedef struct ff_constraints {
 void ff_nav_look(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours, uint32_t count,
                  ff_nav_view *out);
 
-/* Sum of the power-law forces of everybody and every wall near, each at most one, all together at most total (m/s^2). */
+/* Sum of the power-law forces of everybody, every wall and every obstacle near, each at most one, all together at most total (m/s^2). */
 ff_vec2 ff_nav_forces(const ff_nav_view *view, double one, double total);
 
-/* Begin with the walls; put the neighbours' half-planes at the end. */
+/* Begin with the walls; put those of obstacles that move (seen `prediction` s ahead) and the neighbours' at the end. */
 void ff_nav_add_walls(const ff_nav_view *view, ff_constraints *lines);
+void ff_nav_add_movers(const ff_nav_view *view, double prediction, ff_constraints *lines);
 void ff_nav_add_agents(const ff_nav_view *view, ff_avoiding how, ff_constraints *lines);
 
 /* The velocity nearest to wish inside near, if the hard lines leave anything there, else inside wide. If rounding leaves
