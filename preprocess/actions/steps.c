@@ -1,6 +1,7 @@
 #include "preprocess/actions/steps.h"
 
 #include "preprocess/actions/annotate.h"
+#include "preprocess/actions/landing.h"
 #include "preprocess/actions/step_check.h"
 #include "preprocess/actions/whole.h"
 #include "preprocess/motion/standing.h"
@@ -217,7 +218,9 @@ static ff_status cut_all(cutting *c)
     int count = 0;
     for (int i = 0; i < c->plants->count; ++i) {
         int full = ff_plant_full(c->plants, i);
-        if (full >= 0) c->landings[count++] = (ff_landing){full, i};
+        if (full < 0) continue;
+        full = ff_landing_in_motion(c->rig, c->motion, &c->plants->items[i], full);
+        c->landings[count++] = (ff_landing){full, i};
     }
     qsort(c->landings, (size_t)count, sizeof *c->landings, by_frame);
     int capacity = c->motion->frame_count / 2 + 1;

@@ -319,6 +319,37 @@ static void a_step_onto_a_foot_in_the_air_is_none(void **state)
     cut_free(&c);
 }
 
+/* How far a foot of one frame is over lying flat, m: the ball's or the heel's height, whichever is more. */
+static double over_flat(const cut *c, int foot, int frame)
+{
+    ff_vec3 at[FF_BODY_COUNT], rest[FF_BODY_COUNT];
+    int ball = foot == FF_LEFT ? FF_ROLE_BALL_L : FF_ROLE_BALL_R, heel = FF_BODY_HEEL_L + foot;
+    ff_motion_pose(&c->rig, &c->motion, frame, at, NULL);
+    ff_rig_rest_pose(&c->rig, rest);
+    return ff_max(at[ball].y - rest[ball].y, at[heel].y - rest[heel].y);
+}
+
+static void a_walking_step_ends_as_its_foot_is_down_in_the_motion(void **state)
+{
+    (void)state;
+    const char *names[] = {"walk-normal", "walk-creep", "walk-brisk", "back-slow", "back"};
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k) {
+        cut c = cut_generated(names[k], false, -1);
+        int checked = 0;
+        for (int i = 0; i < c.actions.count; ++i) {
+            const ff_action *action = &c.actions.items[i];
+            if (action->record.mode > FF_MODE_WALK_LONG || action->record.flags & FF_ACTION_TO_STANDING)
+                continue;
+            int foot = (int)action->record.swing, frame = action->last_frame;
+            FF_ASSERT_BELOW(over_flat(&c, foot, frame), 0.0101);
+            assert_true(over_flat(&c, foot, frame - 3) > 0.003); /* 25 ms before */
+            ++checked;
+        }
+        assert_true(checked >= 4);
+        cut_free(&c);
+    }
+}
+
 static void a_clip_tagged_as_a_jump_stays_whole(void **state)
 {
     (void)state;
@@ -343,6 +374,7 @@ int main(void)
         cmocka_unit_test(one_who_stands_gives_half_a_second_of_idling),
         cmocka_unit_test(who_sits_still_does_not_stand),
         cmocka_unit_test(a_step_onto_a_foot_in_the_air_is_none),
+        cmocka_unit_test(a_walking_step_ends_as_its_foot_is_down_in_the_motion),
         cmocka_unit_test(a_clip_tagged_as_a_jump_stays_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

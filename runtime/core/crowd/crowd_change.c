@@ -197,6 +197,7 @@ static void leave(ff_crowd *crowd, uint32_t slot, double time)
     gait->hips_drop = gait->hips_speed = 0.0;
     gait->phase =
         stands ? 0.0 : phase_of(crowd, &gait->blend, (int)f->play->actions[s->play.step[0].action].support);
+    if (!stands) gait->pace = 1.0 / gait->style.cadence; /* who walks on does not take a first step */
     place_feet(crowd, &at, gait);
     memset(&gait->offset, 0, sizeof gait->offset);
     body->position = at.root;
