@@ -5,7 +5,7 @@ static const double BALL_UP = 0.005; /* m: ... its ball no higher over where it 
 static const double HEEL_UP = 0.010; /* m: ... and its heel than this, is down */
 /* m: one that is higher up is not coming down: plants and pose contradict each other (step_check.c says so) */
 static const double NEAR = 0.04;
-static const double LATEST = 0.1;       /* s after the signals */
+static const double LATEST = 0.025; /* s after the signals: later, it is another moment of a captured foot */
 static const double SLACK = 0.5 / 60.0; /* s: times that are later than the foot by so little are left */
 
 typedef struct points {
