@@ -10,6 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    KEYS_SHOWN = 240
+}; /* characters of a list of keys: a message has room for them and for what is said about them */
+
 /* ---------------------------------------------------------------------------------------------- loading */
 
 static ff_status refuse_syntax(const ff_json *json, const json_error_t *found, ff_error *error)
@@ -236,6 +240,19 @@ static ff_status fail_member(const ff_json *json, const json_t *object, const ch
 
 /* ---------------------------------------------------------------------------------------------- members */
 
+/* Every key, or as many as there is room for in a message, and dots. */
+static void list_keys(const char *const *keys, char list[KEYS_SHOWN])
+{
+    static const char more[] = ", ...";
+    for (size_t used = 0; *keys; ++keys) {
+        if (used + strlen(", ") + strlen(*keys) + sizeof more > KEYS_SHOWN) {
+            memcpy(list + used, more, sizeof more);
+            return;
+        }
+        used += (size_t)snprintf(list + used, KEYS_SHOWN - used, "%s%s", used ? ", " : "", *keys);
+    }
+}
+
 ff_status ff_json_only_keys(const ff_json *json, const json_t *object, const char *const *allowed,
                             ff_error *error)
 {
@@ -251,11 +268,8 @@ ff_status ff_json_only_keys(const ff_json *json, const json_t *object, const cha
         if (near)
             return ff_json_fail_key(json, object, key, error, "unknown key '%.60s'; did you mean '%s'?", key,
                                     near);
-        char list[240] = "";
-        for (known = allowed; *known; ++known) {
-            size_t used = strlen(list);
-            snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", *known);
-        }
+        char list[KEYS_SHOWN] = "";
+        list_keys(allowed, list);
         return ff_json_fail_key(json, object, key, error, "unknown key '%.60s'; known keys: %s", key, list);
     }
     return FF_OK;

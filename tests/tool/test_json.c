@@ -144,6 +144,27 @@ static void an_unknown_key_is_refused_and_the_nearest_known_one_named(void **sta
     ff_json_free(&json);
 }
 
+/* A list of keys that is too long for a message ends with dots, not within a key. */
+static void a_long_list_of_keys_ends_with_dots(void **state)
+{
+    (void)state;
+    static const char *const many[] = {"one_of_the_keys_that_are_long",   "two_of_the_keys_that_are_long",
+                                       "three_of_the_keys_that_are_long", "four_of_the_keys_that_are_long",
+                                       "five_of_the_keys_that_are_long",  "six_of_the_keys_that_are_long",
+                                       "seven_of_the_keys_that_are_long", "eight_of_the_keys_that_are_long",
+                                       "nine_of_the_keys_that_are_long",  NULL};
+    ff_json json;
+    ff_error error;
+    parse("{\"colour\": 3}", &json);
+    assert_int_equal(ff_json_only_keys(&json, json.root, many, &error), FF_ERR_PARSE);
+    const char *end = strrchr(error.message, ',');
+    assert_non_null(end);
+    assert_string_equal(end, ", ...");
+    assert_null(strstr(error.message, "nine"));
+    assert_non_null(strstr(error.message, "six_of_the_keys_that_are_long, "));
+    ff_json_free(&json);
+}
+
 static void a_file_that_is_missing_or_a_folder_is_named(void **state)
 {
     (void)state;
@@ -178,6 +199,7 @@ int main(void)
         cmocka_unit_test(a_zero_byte_is_refused_with_its_place),
         cmocka_unit_test(a_wrong_value_is_named_at_its_own_line_and_column),
         cmocka_unit_test(an_unknown_key_is_refused_and_the_nearest_known_one_named),
+        cmocka_unit_test(a_long_list_of_keys_ends_with_dots),
         cmocka_unit_test(a_file_that_is_missing_or_a_folder_is_named),
         cmocka_unit_test(deep_nesting_is_refused_or_read_but_never_overflows_the_stack),
     };
