@@ -136,16 +136,18 @@ static void run_one(void *context, uint32_t turn)
     ff_progress_step_by(b->progress, clip->source, b->order[turn].work);
 }
 
-/* Move clips that failed behind the good ones, both in order. With strict the first one ends the build. */
+/* Move clips that failed behind the good ones, both in order. With strict the first one ends the build, and so does an
+ * only clip: what is wrong with it is then all there is to say. */
 static ff_status set_bad_aside(build *b, ff_error *error)
 {
+    bool first_ends = b->settings->strict || b->count == 1;
     int kept = 0;
     for (int i = 0; i < b->good; ++i) {
         if (b->clips[i].status == FF_OK) {
             ++kept;
             continue;
         }
-        if (!b->settings->strict) continue;
+        if (!first_ends) continue;
         if (error) *error = b->clips[i].error;
         return b->clips[i].status;
     }
@@ -158,8 +160,8 @@ static ff_status set_bad_aside(build *b, ff_error *error)
     free(sorted);
     b->good = kept;
     if (kept > 0) return FF_OK;
-    if (error) *error = b->clips[0].error;
-    return b->clips[0].status;
+    return ff_fail(error, b->clips[0].status,
+                   "none of the %d clips can be used: nothing to build a pack from", b->count);
 }
 
 static ff_status run_stage(build *b, const char *what, void (*run)(ff_build_clip *, const ff_build_shared *),

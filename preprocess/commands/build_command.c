@@ -99,7 +99,7 @@ static int build_and_write(const ff_operands *operands, const ff_build_settings 
     size_t size = 0;
     ff_error error;
     ff_status status = build_from(operands, settings, &built, &error);
-    if (status == FF_OK || !settings->strict) print_left_out(&built);
+    print_left_out(&built);
     if (status == FF_OK) status = check_and_write(&built.content, path, &size, &error);
     if (status == FF_OK && *built.warning) fprintf(stderr, PROGRAM ": %s\n", built.warning);
     if (built.unkept > 0)

@@ -89,7 +89,13 @@ a_bad_clip_is_named_and_left_out_or_stops_a_strict_build() {
     run 1 "$pack" build "$work/clips" -o "$work/kept.ffpack" --strict --quiet && says err "$work/clips/bad.bvh:" || return 1
     [ "$(cat "$work/kept.ffpack")" = old ] || { echo "a failed build changed the old pack" && return 1; }
     "$pack" build "$work/clips" -o "$work/kept.ffpack" --quiet >"$work/out" 2>"$work/err"
-    says err "left out: $work/clips/bad.bvh:"
+    says err "left out: $work/clips/bad.bvh:" || return 1
+    # Nothing left: each bad clip is named once, and an only one needs no word more than what is wrong with it.
+    cp "$work/clips/bad.bvh" "$work/worse.bvh"
+    run 1 "$pack" build "$work/clips/bad.bvh" "$work/worse.bvh" -o "$work/kept.ffpack" --quiet && says err "none of the 2 clips" || return 1
+    [ "$(grep -c "left out: " "$work/err")" = 2 ] || { echo "not each bad clip is named once" && return 1; }
+    run 1 "$pack" build "$work/worse.bvh" -o "$work/kept.ffpack" --quiet && says err "$work/worse.bvh:" || return 1
+    [ "$(wc -l <"$work/err")" = 1 ] || { echo "one bad clip is complained of in more than one line" && cat "$work/err" && return 1; }
 }
 a_place_that_cannot_be_written_is_an_error() {
     run 1 "$pack" build "$work/clips/good.bvh" -o "$work/no/such/folder/x.ffpack" --quiet && says err "x.ffpack"
