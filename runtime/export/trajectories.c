@@ -50,6 +50,12 @@ static map fit(const ff_scene *scene, const ff_recording *recording)
         include(&m, ff_scene_walls(scene)[i].p);
         include(&m, ff_scene_walls(scene)[i].q);
     }
+    const ff_obstacle_def *obstacles = scene->obstacles.data;
+    for (size_t i = 0; i < scene->obstacles.count; ++i) {
+        include(&m, obstacles[i].position);
+        for (uint32_t k = 0; k < obstacles[i].path_count; ++k)
+            include(&m, ff_add2(obstacles[i].position, obstacles[i].path[k].at));
+    }
     m.low = ff_sub2(m.low, ff_v2(0.8, 0.8));
     m.high = ff_add2(m.high, ff_v2(0.8, 0.8));
     m.lying = m.high.a - m.low.a > 1.2 * (m.high.b - m.low.b);
@@ -116,6 +122,25 @@ static void draw_scale_bar(ff_picture *picture, const map *m, int width, int hei
     ff_picture_line(picture, (ff_pixel){left, y - 7}, (ff_pixel){left, y + 7}, 2.0, ink);
     ff_picture_line(picture, (ff_pixel){right, y - 7}, (ff_pixel){right, y + 7}, 2.0, ink);
     ff_picture_text(picture, (ff_pixel){0.5 * (left + right), y + 26}, 13, FF_ALIGN_MIDDLE, ink, text);
+}
+
+/* Which way x and z run: pictures lie or stand. */
+static void draw_axes(ff_picture *picture, const map *m, int height)
+{
+    const double length = 34.0, head = 6.0;
+    ff_pixel corner = {MARGIN + (m->lying ? 6.0 : 58.0), height - FOOT - 6.0};
+    ff_pixel up = {corner.x, corner.y - length};
+    double side = m->lying ? 1.0 : -1.0;
+    ff_pixel aside = {corner.x + side * length, corner.y};
+    ff_picture_line(picture, corner, up, 2.0, grey);
+    ff_picture_line(picture, (ff_pixel){up.x - head, up.y + head}, up, 2.0, grey);
+    ff_picture_line(picture, (ff_pixel){up.x + head, up.y + head}, up, 2.0, grey);
+    ff_picture_line(picture, corner, aside, 2.0, grey);
+    ff_picture_line(picture, (ff_pixel){aside.x - side * head, aside.y - head}, aside, 2.0, grey);
+    ff_picture_line(picture, (ff_pixel){aside.x - side * head, aside.y + head}, aside, 2.0, grey);
+    ff_picture_text(picture, (ff_pixel){up.x, up.y - 8}, 12, FF_ALIGN_MIDDLE, grey, m->lying ? "x" : "z");
+    ff_picture_text(picture, (ff_pixel){aside.x + side * 12, aside.y + 5}, 12, FF_ALIGN_MIDDLE, grey,
+                    m->lying ? "z" : "x");
 }
 
 static void draw_legend(ff_picture *picture, int height)
@@ -185,6 +210,7 @@ ff_status ff_trajectories_write(const char *path, const ff_scene *scene, const f
         for (uint32_t i = 0; i < recording->agent_count; ++i)
             draw_marks(picture, &m, scene, i);
         draw_title(picture, scene, recording);
+        draw_axes(picture, &m, height);
         draw_legend(picture, height);
         draw_scale_bar(picture, &m, width, height);
         status = ff_picture_write_png(picture, path, error);
