@@ -3,6 +3,7 @@
 #include "runtime/core/base/fail.h"
 #include "runtime/core/base/file.h"
 #include "runtime/export/glb_body.h"
+#include "runtime/export/glb_surroundings.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -145,6 +146,8 @@ static ff_status build(writer *w, ff_error *error)
     status = ff_glb_add_surroundings(w->model, w->scene, low, high, error);
     w->animation = ff_glb_add_animation(w->model, "crowd");
     w->times = add_times(w);
+    if (status == FF_OK)
+        status = ff_glb_add_obstacles(w->model, w->scene, w->recording, w->animation, w->times, error);
     for (uint32_t i = 0; i < w->recording->agent_count; ++i)
         if (ff_recording_is_posed(w->recording, i)) add_agent(w, i);
     return status;

@@ -1,4 +1,4 @@
-/* glb.h - a whole run as glTF: every agent an animated person, ground and walls; metres, Y up.
+/* glb.h - a whole run as glTF: every agent an animated person, ground, walls and obstacles; metres, Y up.
  *
  * One body, whose vertices all agents share; per agent a skeleton of nodes, a skin that names them (inverse bind
  * matrices are shared too), and channels of one animation: hips translation, and rotations as normalised int16. A

@@ -1,4 +1,4 @@
-/* glb_body.h - the shared body, clothes, ground and walls of a glTF document. */
+/* glb_body.h - the shared body and the clothes of a glTF document. */
 #ifndef FF_GLB_BODY_H
 #define FF_GLB_BODY_H
 
@@ -20,9 +20,5 @@ void ff_glb_wardrobe_free(ff_glb_wardrobe *wardrobe);
 
 /* The mesh of a body dressed like this, made when first asked for; -1 when memory is short. */
 int ff_glb_wardrobe_mesh(ff_glb_wardrobe *wardrobe, ff_glb_model *model, const ff_look *look);
-
-/* A checkered ground of 1 m tiles under everything between low and high, and the scene's walls. */
-ff_status ff_glb_add_surroundings(ff_glb_model *model, const ff_scene *scene, ff_vec2 low, ff_vec2 high,
-                                  ff_error *error);
 
 #endif

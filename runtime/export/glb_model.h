@@ -38,6 +38,7 @@ int ff_glb_add_mesh(ff_glb_model *model, const char *name, const ff_glb_primitiv
 
 /* parent -1: at the top of the scene. */
 int ff_glb_add_node(ff_glb_model *model, const char *name, int parent, ff_vec3 translation);
+void ff_glb_set_translation(ff_glb_model *model, int node, ff_vec3 translation); /* 0 writes nothing */
 void ff_glb_set_rotation(ff_glb_model *model, int node, ff_quat rotation);
 void ff_glb_set_scale(ff_glb_model *model, int node, double scale); /* 1 writes nothing */
 void ff_glb_set_mesh(ff_glb_model *model, int node, int mesh, int skin);

@@ -70,6 +70,12 @@ int element_type(int width)
         return TINYGLTF_TYPE_MAT4;
     }
 }
+
+void place(tinygltf::Node &node, ff_vec3 translation)
+{
+    if (translation.x != 0.0 || translation.y != 0.0 || translation.z != 0.0)
+        node.translation = {translation.x, translation.y, translation.z};
+}
 } // namespace
 
 extern "C" {
@@ -175,13 +181,20 @@ int ff_glb_add_node(ff_glb_model *model, const char *name, int parent, ff_vec3 t
     return built(model, [&](tinygltf::Model &m) {
         tinygltf::Node node;
         node.name = name;
-        if (translation.x != 0.0 || translation.y != 0.0 || translation.z != 0.0)
-            node.translation = {translation.x, translation.y, translation.z};
+        place(node, translation);
         m.nodes.push_back(node);
         std::vector<int> &siblings =
             parent < 0 ? m.scenes[0].nodes : m.nodes[static_cast<size_t>(parent)].children;
         siblings.push_back(last(m.nodes));
         return last(m.nodes);
+    });
+}
+
+void ff_glb_set_translation(ff_glb_model *model, int node, ff_vec3 translation)
+{
+    built(model, [&](tinygltf::Model &m) {
+        place(m.nodes[static_cast<size_t>(node)], translation);
+        return 0;
     });
 }
 

@@ -29,7 +29,10 @@ static int open_document(void **state)
     ff_figure figure;
     if (folder_create(state) != 0) return -1;
     walker_figure(&figure);
-    walker_scene("{\"kind\": \"circle\", \"agents\": 6, \"walls\": [[-9, -9, 9, -9]]}", &d.scene);
+    walker_scene("{\"kind\": \"circle\", \"agents\": 6, \"walls\": [[-9, -9, 9, -9]], \"obstacles\": ["
+                 "{\"position\": [2.2, 9], \"length\": 1.2, \"width\": 0.6, \"radius\": 0, \"high\": 1.5}, "
+                 "{\"radius\": 0.3, \"low\": 1, \"high\": 1.5, \"path\": [[-20, 9, 0], [-16, 17, 2]]}]}",
+                 &d.scene);
     walker_record(&d.scene, 1.0, &d.recording);
     FF_ASSERT_OK(ff_glb_write(folder_path("crowd.glb"), &figure, &d.scene, &d.recording, &error), error);
     d.file = folder_read("crowd.glb");
@@ -154,8 +157,8 @@ static void test_only_joints_that_move_have_channels(void **state)
 {
     const document *d = *state;
     const json_t *animation = json_array_get(list(d, "animations"), 0);
-    /* Of the walker move: the hips' place; shoulders, thighs, shanks. */
-    assert_int_equal(json_array_size(json_object_get(animation, "channels")), 6 * (1 + 6));
+    /* Of the walker move: the hips' place; shoulders, thighs, shanks. And one obstacle. */
+    assert_int_equal(json_array_size(json_object_get(animation, "channels")), 6 * (1 + 6) + 1);
 }
 
 static const void *accessor_data(const document *d, json_int_t index)
@@ -233,6 +236,97 @@ static void test_bind_matrices_undo_the_rest_pose_of_every_skeleton(void **state
     }
 }
 
+static json_int_t named(const document *d, const char *name)
+{
+    size_t index;
+    const json_t *node;
+    json_array_foreach((json_t *)list(d, "nodes"), index, node)
+    {
+        if (strcmp(json_string_value(json_object_get(node, "name")), name) == 0) return (json_int_t)index;
+    }
+    fail_msg("no node is named '%s'", name);
+    return -1;
+}
+
+static ff_vec3 vector_at(const float *values, size_t index)
+{
+    return ff_v3((double)values[3 * index], (double)values[3 * index + 1], (double)values[3 * index + 2]);
+}
+
+/* Of the triangles of a node's mesh, signed: outward faces all around count what they enclose (divergence theorem). */
+static double volume_of(const document *d, json_int_t node, double low[3], double high[3])
+{
+    const json_t *mesh = json_array_get(
+        list(d, "meshes"), (size_t)integer(json_array_get(list(d, "nodes"), (size_t)node), "mesh"));
+    const json_t *primitive = json_array_get(json_object_get(mesh, "primitives"), 0);
+    json_int_t indices = integer(primitive, "indices");
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    const float *at = accessor_data(d, integer(attributes, "POSITION"));
+    const float *normal = accessor_data(d, integer(attributes, "NORMAL"));
+    const uint32_t *corner = accessor_data(d, indices);
+    size_t count = (size_t)integer(json_array_get(list(d, "accessors"), (size_t)indices), "count");
+    double volume = 0.0;
+    for (size_t t = 0; t < count; t += 3) {
+        ff_vec3 p[3], n = vector_at(normal, corner[t]);
+        for (size_t c = 0; c < 3; ++c) {
+            p[c] = vector_at(at, corner[t + c]);
+            const double v[3] = {p[c].x, p[c].y, p[c].z};
+            for (int k = 0; k < 3; ++k) {
+                low[k] = ff_min(low[k], v[k]);
+                high[k] = ff_max(high[k], v[k]);
+            }
+        }
+        ff_vec3 across = ff_cross3(ff_sub3(p[1], p[0]), ff_sub3(p[2], p[0]));
+        assert_true(ff_dot3(across, n) > 0.99 * sqrt(ff_dot3(across, across)));
+        volume += ff_dot3(p[0], ff_cross3(p[1], p[2])) / 6.0;
+    }
+    return volume;
+}
+
+static void test_obstacles_are_solids_where_the_scene_has_them(void **state)
+{
+    const document *d = *state;
+    double low[3] = {9, 9, 9}, high[3] = {-9, -9, -9};
+    json_int_t box = named(d, "obstacle 0"), bar = named(d, "obstacle 1");
+    const json_t *at = json_object_get(json_array_get(list(d, "nodes"), (size_t)box), "translation");
+    FF_ASSERT_NEAR(json_number_value(json_array_get(at, 0)), 2.2, 1e-6);
+    FF_ASSERT_NEAR(json_number_value(json_array_get(at, 2)), 9.0, 1e-6);
+    /* It stands on the ground, where nobody sees its underside: the missing lid at height 0 adds nothing. */
+    FF_ASSERT_NEAR(volume_of(d, box, low, high), 1.2 * 0.6 * 1.5, 1e-6);
+    const double wide[3] = {0.3, 0.75, 0.6}; /* length along z */
+    for (int k = 0; k < 3; ++k)
+        FF_ASSERT_NEAR(0.5 * (high[k] - low[k]), wide[k], 1e-6);
+    FF_ASSERT_NEAR(low[1], 0.0, 1e-6);
+    /* A disc's outline has twelve corners, 30 degrees apart; this one hangs, and is closed. */
+    FF_ASSERT_NEAR(volume_of(d, bar, low, high), 0.5 * 12.0 * 0.3 * 0.3 * 0.5 * 0.5, 1e-6);
+}
+
+static void test_an_obstacle_on_a_path_moves_as_the_scene_says(void **state)
+{
+    const document *d = *state;
+    const json_t *animation = json_array_get(list(d, "animations"), 0), *channel;
+    json_int_t bar = named(d, "obstacle 1");
+    size_t c, found = 0;
+    json_array_foreach(json_object_get(animation, "channels"), c, channel)
+    {
+        const json_t *target = json_object_get(channel, "target");
+        if (integer(target, "node") != bar) continue;
+        const json_t *sampler =
+            json_array_get(json_object_get(animation, "samplers"), (size_t)integer(channel, "sampler"));
+        const float *places = accessor_data(d, integer(sampler, "output"));
+        const float *times = accessor_data(d, integer(sampler, "input"));
+        assert_string_equal(json_string_value(json_object_get(target, "path")), "translation");
+        for (size_t k = 0; k <= 30; k += 15) { /* from (-20, 9) to (-16, 17) in 2 s */
+            ff_vec3 place = vector_at(places, k);
+            FF_ASSERT_NEAR(place.x, -20.0 + 2.0 * (double)times[k], 1e-5);
+            FF_ASSERT_NEAR(place.y, 0.0, 0.0);
+            FF_ASSERT_NEAR(place.z, 9.0 + 4.0 * (double)times[k], 1e-5);
+        }
+        ++found;
+    }
+    assert_int_equal(found, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -242,6 +336,8 @@ int main(void)
         cmocka_unit_test(test_bodies_of_other_sizes_have_their_hips_scaled),
         cmocka_unit_test(test_only_joints_that_move_have_channels),
         cmocka_unit_test(test_hips_and_rotations_are_those_recorded),
+        cmocka_unit_test(test_obstacles_are_solids_where_the_scene_has_them),
+        cmocka_unit_test(test_an_obstacle_on_a_path_moves_as_the_scene_says),
     };
     return cmocka_run_group_tests(tests, open_document, close_document);
 }
