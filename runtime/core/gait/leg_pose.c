@@ -69,7 +69,7 @@ static ff_quat toes_on_floor(const ff_body_frame *body, const ff_leg_target *tar
     if (tip.y < least) up = 0.5 * FF_PI - ff_acos(least / ff_max(length, 1e-6)) - now;
     if (target->bent > 0.0) {
         double own = -2.0 * ff_atan2(toes.x, toes.w), flat = ff_atan2(body->toe[foot].y, body->toe[foot].z);
-        up = ff_max(up, target->bent * (own + flat - now) - own);
+        up = ff_max(up, ff_lerp(ff_min(own, 0.0), own + flat - now, target->bent) - own);
     }
     up = ff_clamp(up, 0.0, MOST_BEND);
     return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), toes);

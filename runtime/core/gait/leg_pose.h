@@ -21,7 +21,9 @@ typedef struct ff_leg_target {
     double grip;
     double swing; /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
     double round; /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
-    double bent; /* 0 to 1: how much of the bend that toes flat on the floor would have, they have at least */
+    /* 0 to 1: toes are bent up at least this much of the way from the motion's bend, or none, to that of toes flat on the
+     * floor. */
+    double bent;
     double
         give; /* m, by which the leg is longer than to the foot's place, or, of one that stands, than its reach */
     double raise; /* rad, by which the heel is lifted in any case */
