@@ -154,13 +154,96 @@ static void a_foot_that_lands_soon_has_lost_its_offset_by_then(void **state)
     assert_true(ff_length3(ff_pose_offset_hips(&offset)) > 1e-3);
 }
 
+/* The left elbow is 1.5 rad from where it shall be, and the new motion itself turns it at `speed` (rad/s). */
+static ff_quat elbow_of(double speed, double time)
+{
+    return ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -speed * time);
+}
+
+static ff_pose_offset elbow_to_go(double speed)
+{
+    enum { ELBOW = FF_JOINT_ELBOW_L };
+    ff_pose_targets from = motion(1.0, 0.0), from_later = from, to = from, to_later = from;
+    to.turn[ELBOW] = elbow_of(speed, 0.0);
+    to_later.turn[ELBOW] = elbow_of(speed, H);
+    from.turn[ELBOW] = from_later.turn[ELBOW] = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), 1.5);
+    ff_pose_offset offset;
+    begin(&offset, &from, &from_later, &to, &to_later);
+    return offset;
+}
+
+/* How long it lasts (s), and the fastest that the elbow is turned (rad/s). */
+static double fade_elbow(double speed, double most, double *fastest)
+{
+    enum { ARM = 1 };
+    assert_int_equal(ff_arm_joints[ARM], FF_JOINT_ELBOW_L);
+    ff_pose_offset offset = elbow_to_go(speed);
+    ff_quat last = ff_pose_offset_turn(&offset, FF_JOINT_ELBOW_L, elbow_of(speed, 0.0));
+    double time = 0.0;
+    for (*fastest = 0.0; ff_pose_offset_active(&offset) && time < 10.0; time += H) {
+        ff_pose_offset_advance(&offset, H);
+        ff_quat before = elbow_of(speed, time), now = elbow_of(speed, time + H);
+        if (ff_pose_offset_active(&offset)) ff_pose_offset_hold(&offset, ARM, before, now, most * H, H);
+        ff_quat shown = ff_pose_offset_turn(&offset, FF_JOINT_ELBOW_L, now);
+        *fastest = ff_max(*fastest, ff_quat_angle(ff_quat_mul(ff_quat_conj(last), shown)) / H);
+        for (int arm = 0; arm < FF_ARM_JOINTS; ++arm)
+            if (arm != ARM) assert_true(offset.late[arm] == 0.0f);
+        last = shown;
+    }
+    return time;
+}
+
+static void an_arm_takes_its_time_and_is_turned_no_faster_than_it_may(void **state)
+{
+    (void)state;
+    double fastest, free = fade_elbow(2.0, 1e3, &fastest);
+    FF_ASSERT_NEAR(free, FF_POSE_OFFSET_TIME, 2.0 * H);
+    assert_true(fastest > 7.0);
+    double slow = fade_elbow(2.0, 5.0, &fastest);
+    FF_ASSERT_BELOW(fastest, 5.0 * 1.01); /* within a step the fade counts as a straight line */
+    assert_true(fastest > 4.9 && slow > free + 0.1);
+    FF_ASSERT_BELOW(slow, 1.0); /* 1.5 rad at the 3 rad/s that are left, and its ends */
+}
+
+static void what_fades_against_the_motion_is_not_waited_for(void **state)
+{
+    (void)state;
+    /* The motion bends the elbow faster than it may, and the fade stretches it: to wait would make it worse. */
+    double fastest, time = fade_elbow(-9.0, 8.0, &fastest);
+    FF_ASSERT_NEAR(time, FF_POSE_OFFSET_TIME, 2.0 * H);
+    FF_ASSERT_BELOW(fastest, 9.0 + 1e-6);
+}
+
+static void the_speed_of_a_fade_is_that_of_its_turn(void **state)
+{
+    (void)state;
+    ff_pose_offset offset = elbow_to_go(2.0);
+    for (int i = 0; i < 80; ++i) {
+        ff_pose_offset before = offset, after = offset;
+        ff_quat none = {0.0, 0.0, 0.0, 1.0};
+        before.age -= 1e-5;
+        after.age += 1e-5;
+        ff_quat p = ff_pose_offset_turn(&before, FF_JOINT_ELBOW_L, none),
+                q = ff_pose_offset_turn(&after, FF_JOINT_ELBOW_L, none);
+        if (i > 0 && offset.age < FF_POSE_OFFSET_TIME - 1e-5)
+            FF_ASSERT_NEAR(ff_pose_offset_speed(&offset, 1),
+                           ff_quat_angle(ff_quat_mul(ff_quat_conj(p), q)) / 2e-5, 1e-3);
+        if (i == 75) assert_true(ff_pose_offset_speed(&offset, 1) == 0.0);
+        ff_pose_offset_advance(&offset, H);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(at_the_switch_the_old_pose_is_shown),
-                                       cmocka_unit_test(just_after_it_the_pose_goes_on_at_the_old_speed),
-                                       cmocka_unit_test(one_number_follows_the_closed_form),
-                                       cmocka_unit_test(it_ends_in_the_new_motion_without_a_jump),
-                                       cmocka_unit_test(a_second_switch_in_between_is_as_smooth),
-                                       cmocka_unit_test(a_foot_that_lands_soon_has_lost_its_offset_by_then)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(at_the_switch_the_old_pose_is_shown),
+        cmocka_unit_test(just_after_it_the_pose_goes_on_at_the_old_speed),
+        cmocka_unit_test(one_number_follows_the_closed_form),
+        cmocka_unit_test(it_ends_in_the_new_motion_without_a_jump),
+        cmocka_unit_test(a_second_switch_in_between_is_as_smooth),
+        cmocka_unit_test(a_foot_that_lands_soon_has_lost_its_offset_by_then),
+        cmocka_unit_test(an_arm_takes_its_time_and_is_turned_no_faster_than_it_may),
+        cmocka_unit_test(what_fades_against_the_motion_is_not_waited_for),
+        cmocka_unit_test(the_speed_of_a_fade_is_that_of_its_turn)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,6 +167,32 @@ static ff_status read_poses(ff_blend_space *space, ff_error *error)
     return FF_OK;
 }
 
+/* A cycle's last frame is followed by its first. */
+static double fastest_of(const ff_pose_store *poses, const ff_blend_vertex *vertex, uint32_t joint)
+{
+    double most = 0.0;
+    ff_quat last = ff_pose_read(poses, vertex->first_frame + vertex->frame_count - 1, joint);
+    for (uint32_t i = 0; i < vertex->frame_count; ++i) {
+        ff_quat now = ff_pose_read(poses, vertex->first_frame + i, joint);
+        most = ff_max(most, ff_quat_angle(ff_quat_mul(ff_quat_conj(last), now)));
+        last = now;
+    }
+    return most * vertex->rate;
+}
+
+/* People have no faster side. */
+static void read_arm_speeds(ff_blend_space *space)
+{
+    for (uint32_t v = 0; v < space->vertex_count; ++v) {
+        const ff_blend_vertex *vertex = &space->vertices[v];
+        if (space->pack->examples[vertex->example].flags & FF_EXAMPLE_DERIVED) continue;
+        for (int arm = 0; arm < FF_ARM_JOINTS; ++arm) {
+            double *one = &space->arm_speed[arm], *other = &space->arm_speed[arm ^ 2];
+            *one = *other = ff_max(*one, fastest_of(&space->poses, vertex, (uint32_t)ff_arm_joints[arm]));
+        }
+    }
+}
+
 static double speed_of(ff_rates rates)
 {
     return ff_length3(ff_blend_point(rates));
@@ -223,5 +249,7 @@ ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)
             error, FF_ERR_NO_DATA,
             "the pack has no walking example: build it from clips with at least two strides in them");
     read_neutral(space);
-    return read_poses(space, error);
+    ff_status status = read_poses(space, error);
+    if (status == FF_OK) read_arm_speeds(space);
+    return status;
 }

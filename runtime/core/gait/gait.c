@@ -1,6 +1,7 @@
 /* gait.c - standing, stepping and the change between them; the clock of the steps. */
 #include "runtime/core/base/random.h"
 #include "runtime/core/gait/foot_lock.h"
+#include "runtime/core/gait/gait_arms.h"
 #include "runtime/core/gait/gait_hips.h"
 #include "runtime/core/gait/gait_switch.h"
 
@@ -297,6 +298,13 @@ void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_r
     ff_vec2 position = root->position;
     double heading = root->heading;
     ff_rates rates = root->rates;
+    ff_quat arms[FF_ARM_JOINTS];
+    bool changing = ff_gait_arms_hurry(space, gait);
+    ff_cursor cursor;
+    if (changing) {
+        cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
+        ff_gait_arms(space, &cursor, arms);
+    }
     follow_rates(gait, rates, dt);
     ff_blend wanted;
     ff_locomotion_find(space, (ff_locomotion)gait->blend.way, blend_rates(gait->rates), &wanted);
@@ -304,13 +312,14 @@ void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_r
     gait->idle_time += dt;
     ff_pose_offset_advance(&gait->offset, dt);
 
-    ff_cursor cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
+    cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
     ff_foot_scene scene = scene_of(space, gait, &cursor, position, heading, rates, dt);
     change_mode(&scene, gait);
     if (gait->mode == FF_GAIT_STEP) {
         advance_phase(space, gait, &scene);
         cursor = ff_cursor_at(space, &gait->blend, gait->phase, gait->idle_time);
     }
+    if (changing) ff_gait_hold_arms(space, gait, &cursor, arms, dt);
     double toward = gait->mode == FF_GAIT_STAND ? dt / STAND_TIME : -dt / STAND_TIME;
     gait->stand = ff_clamp(gait->stand + toward, 0.0, 1.0);
     for (int foot = 0; foot < 2; ++foot)

@@ -44,9 +44,10 @@ static void apply_idle_life(const ff_gait *gait, ff_quat *rotations)
 /* The person: how far the arms swing about the idle pose, how upright the spine is. */
 static void apply_style(const ff_blend_space *space, const ff_gait *gait, ff_quat *rotations)
 {
-    static const int arms[4] = {FF_JOINT_SHOULDER_L, FF_JOINT_ELBOW_L, FF_JOINT_SHOULDER_R, FF_JOINT_ELBOW_R};
-    for (int i = 0; i < 4 && space->idle >= 0; ++i)
-        rotations[arms[i]] = ff_quat_nlerp(space->rest[arms[i]], rotations[arms[i]], gait->style.arms);
+    for (int i = 0; i < FF_ARM_JOINTS && space->idle >= 0; ++i) {
+        int32_t joint = ff_arm_joints[i];
+        rotations[joint] = ff_quat_nlerp(space->rest[joint], rotations[joint], gait->style.arms);
+    }
     ff_quat stoop = ff_quat_axis(ff_v3(1.0, 0.0, 0.0), gait->style.stoop);
     rotations[FF_JOINT_SPINE] = ff_quat_mul(stoop, rotations[FF_JOINT_SPINE]);
     rotations[FF_JOINT_NECK] = ff_quat_mul(ff_quat_conj(stoop), rotations[FF_JOINT_NECK]);

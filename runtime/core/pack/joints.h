@@ -29,6 +29,11 @@ enum {
     FF_JOINT_COUNT
 };
 
+/* What swings an arm: shoulder and elbow, left, then right. */
+#define FF_ARM_JOINTS 4
+static const int32_t ff_arm_joints[FF_ARM_JOINTS] = {FF_JOINT_SHOULDER_L, FF_JOINT_ELBOW_L,
+                                                     FF_JOINT_SHOULDER_R, FF_JOINT_ELBOW_R};
+
 /* Joint a of a leg is FF_JOINT_HIP_L + a + foot * FF_JOINT_LEG_STRIDE (foot 0 left, 1 right). */
 enum { FF_JOINT_LEG_STRIDE = FF_JOINT_HIP_R - FF_JOINT_HIP_L };
 

@@ -43,12 +43,23 @@ typedef struct ff_pose_offset {
     float hips[2][3];                 /* the difference at the switch, m, and its change then, m/s */
     float foot[2][2][5];              /* per foot the same: forward, left, height (m), yaw, pitch (rad) */
     float turn[2][FF_JOINT_COUNT][3]; /* rotation vectors in the parent's frame, rad and rad/s */
+    float late[FF_ARM_JOINTS];        /* s, by which ff_arm_joints are behind in this (ff_pose_offset_hold) */
 } ff_pose_offset;
 
 void ff_pose_offset_begin(ff_pose_offset *offset, const ff_pose_switch *change);
 
 /* dt seconds pass. */
 void ff_pose_offset_advance(ff_pose_offset *offset, double dt);
+
+/* For ff_arm_joints[arm], after ff_pose_offset_advance: its fade waits, as far as that helps, where it would turn the joint by
+ * more than `most` (rad) in these dt seconds. The motion's own rotation of the joint was before and is now. Arms carry nothing,
+ * so they may take their time; a fade that is as long for everybody turns them too quickly whenever the new motion swings
+ * them the same way. */
+void ff_pose_offset_hold(ff_pose_offset *offset, int arm, ff_quat before, ff_quat now, double most,
+                         double dt);
+
+/* rad/s, how fast the fade turns ff_arm_joints[arm] now. */
+double ff_pose_offset_speed(const ff_pose_offset *offset, int arm);
 
 static inline bool ff_pose_offset_active(const ff_pose_offset *offset)
 {
