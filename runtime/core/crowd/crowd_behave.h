@@ -20,7 +20,7 @@ void ff_crowd_behave_speed(ff_crowd *crowd, uint32_t slot, double speed);
 /* Count goals that are taken and people of spawners anew, of a crowd that was loaded. */
 void ff_crowd_behave_recount(ff_crowd *crowd);
 
-/* Put in and take out (crowd.c). A spawned one faces its goal. NULL error is fine. */
+/* Put in and take out (crowd_agents.c). A spawned one faces its goal. NULL error is fine. */
 ff_status ff_crowd_put(ff_crowd *crowd, const ff_agent_def *def, uint32_t spawner, ff_agent *out,
                        ff_error *error);
 void ff_crowd_take_out(ff_crowd *crowd, uint32_t slot);
