@@ -351,7 +351,8 @@ static void changing_planner_on_the_way_does_not_show(void **state)
     ff_crowd_def def = footsteps_def(1);
     def.footsteps.mixed = true;
     def.step = 1.0 / 60.0;
-    double most[2] = {0.0, 0.0}; /* m/s: within a step, at other times and about the changes */
+    double most[2] = {0.0, 0.0};  /* m/s: within a step, at other times and about the changes */
+    double low = 1.0, high = 0.0; /* m, of the balls of planted feet, once they are down */
     int changes = 0;
     for (int k = 0; k < 8; ++k) {
         ff_crowd *crowd = crowd_of(&def);
@@ -359,7 +360,7 @@ static void changing_planner_on_the_way_does_not_show(void **state)
         ff_agent agent = add(crowd, ff_v2(0.0, 0.0), ff_v2(20.0, 0.5 * k),
                              k % 2 ? FF_PLANNER_VELOCITY : FF_PLANNER_FOOTSTEPS);
         shown s[3];
-        int since = 1000;
+        int since = 1000, down[2] = {0, 0};
         uint8_t planner = state_of(crowd, agent).planner;
         for (int i = 0; i < 540; ++i) {
             if (i % 130 == 100) {
@@ -368,10 +369,17 @@ static void changing_planner_on_the_way_does_not_show(void **state)
                 FF_ASSERT_OK(ff_crowd_set_planner(crowd, agent, other, &error), error);
             }
             ff_crowd_step(crowd);
-            uint8_t now = state_of(crowd, agent).planner;
-            if (now != planner) since = 0, ++changes;
-            planner = now;
+            ff_agent_state is = state_of(crowd, agent);
+            if (is.planner != planner) since = 0, ++changes;
+            planner = is.planner;
             s[2] = look(crowd, agent);
+            for (int foot = 0; foot < 2; ++foot) {
+                double ball = s[2].at[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE].y;
+                down[foot] = is.planted[foot] ? down[foot] + 1 : 0;
+                if (down[foot] < 4) continue; /* heel first: 0.07 s until the ball is down, too */
+                low = ff_min(low, ball);
+                high = ff_max(high, ball);
+            }
             for (int j = 0; j < FF_JOINT_COUNT && i > 1; ++j) {
                 ff_vec3 v = ff_sub3(s[2].at[j], s[1].at[j]), u = ff_sub3(s[1].at[j], s[0].at[j]);
                 double change = ff_length3(ff_sub3(v, u)) * 60.0;
@@ -388,7 +396,9 @@ static void changing_planner_on_the_way_does_not_show(void **state)
     print_message(
         "%d changes; joints' speeds change by up to %.2f m/s in a step about them, %.2f at other times\n",
         changes, most[1], most[0]);
+    print_message("balls of planted feet are %.1f to %.1f cm high\n", 100.0 * low, 100.0 * high);
     assert_true(changes >= 16);
+    FF_ASSERT_BELOW(high - low, 0.01);
     FF_ASSERT_BELOW(most[1], ff_max(1.5 * most[0], 1.0));
 }
 

@@ -47,7 +47,7 @@ static double apart(const ff_pose_targets *p, const ff_pose_targets *q)
 static void begin(ff_pose_offset *offset, const ff_pose_targets *old, const ff_pose_targets *old_later,
                   const ff_pose_targets *new, const ff_pose_targets *new_later)
 {
-    ff_pose_switch change = {old, old_later, new, new_later, H, {1.0, 1.0}};
+    ff_pose_switch change = {old, old_later, new, new_later, H, {1.0, 1.0}, {false, false}};
     ff_pose_offset_begin(offset, &change);
 }
 
@@ -140,7 +140,7 @@ static void a_foot_that_lands_soon_has_lost_its_offset_by_then(void **state)
     (void)state;
     ff_pose_targets from = motion(1.0, 0.0), from_later = motion(1.0, H);
     ff_pose_targets to = motion(2.0, 0.0), to_later = motion(2.0, H);
-    ff_pose_switch change = {&from, &from_later, &to, &to_later, H, {0.1, 0.0}};
+    ff_pose_switch change = {&from, &from_later, &to, &to_later, H, {0.1, 0.0}, {false, false}};
     ff_pose_offset offset;
     ff_pose_offset_begin(&offset, &change);
     for (int i = 0; i <= 10; ++i) {
@@ -152,6 +152,35 @@ static void a_foot_that_lands_soon_has_lost_its_offset_by_then(void **state)
     }
     assert_true(ff_pose_offset_active(&offset));
     assert_true(ff_length3(ff_pose_offset_hips(&offset)) > 1e-3);
+}
+
+/* However fast it came down: with the speed it would have gone 2 cm into the floor, or up again. */
+static void a_foot_that_stands_neither_rises_nor_sinks_meanwhile(void **state)
+{
+    (void)state;
+    const double speeds[] = {-2.0, -0.4, 0.0, 0.4, 2.0}, heights[] = {-0.02, 0.0, 0.03};
+    for (int i = 0; i < 15; ++i) {
+        ff_pose_targets to = motion(2.0, 0.0), to_later = to, from = to, from_later = to;
+        double height = heights[i / 5], speed = speeds[i % 5];
+        from.foot[0].height += height, from_later.foot[0].height += height + speed * H;
+        from.foot[0].pitch += height, from_later.foot[0].pitch += height - speed * H;
+        from.foot[1] = from.foot[0], from_later.foot[1] = from_later.foot[0]; /* this one does not stand */
+        ff_pose_switch change = {&from, &from_later, &to, &to_later, H, {1.0, 1.0}, {true, false}};
+        ff_pose_offset offset;
+        ff_pose_offset_begin(&offset, &change);
+        double before[2] = {fabs(height), fabs(height)};
+        for (int k = 0; k < 300; ++k) {
+            ff_pose_foot left = ff_pose_offset_foot(&offset, 0), right = ff_pose_offset_foot(&offset, 1);
+            const double now[2] = {left.height, left.pitch};
+            for (int n = 0; n < 2; ++n) {
+                assert_true(now[n] * height >= -1e-12);
+                FF_ASSERT_BELOW(fabs(now[n]), before[n] + 1e-8);
+                before[n] = fabs(now[n]);
+            }
+            if (k == 100 && fabs(speed) > 1.0) assert_true(fabs(right.height) > 0.05);
+            ff_pose_offset_advance(&offset, 0.001);
+        }
+    }
 }
 
 /* The left elbow is 1.5 rad from where it shall be, and the new motion itself turns it at `speed` (rad/s). */
@@ -242,6 +271,7 @@ int main(void)
         cmocka_unit_test(it_ends_in_the_new_motion_without_a_jump),
         cmocka_unit_test(a_second_switch_in_between_is_as_smooth),
         cmocka_unit_test(a_foot_that_lands_soon_has_lost_its_offset_by_then),
+        cmocka_unit_test(a_foot_that_stands_neither_rises_nor_sinks_meanwhile),
         cmocka_unit_test(an_arm_takes_its_time_and_is_turned_no_faster_than_it_may),
         cmocka_unit_test(what_fades_against_the_motion_is_not_waited_for),
         cmocka_unit_test(the_speed_of_a_fade_is_that_of_its_turn)};

@@ -91,6 +91,8 @@ static void gait_shows(const ff_blend_space *space, const ff_gait *gait, const f
     out->heading = root->heading;
     ff_gait_pose(space, gait, root->position, root->heading, &out->hips, out->rotations);
     ff_legs_of_pose(&space->body, out->hips, out->rotations, out->ball, out->foot);
+    for (int foot = 0; foot < 2; ++foot)
+        out->planted[foot] = gait->foot[foot].planted;
 }
 
 void ff_stepper_enter(ff_crowd *crowd, uint32_t slot, const ff_plan_job *job, double time)
@@ -209,7 +211,7 @@ static void leave(ff_crowd *crowd, uint32_t slot, double time)
     ff_gait_targets(space, gait, &now, &new[0]);
     ff_gait_advance(space, &ahead, &later, LATER);
     ff_gait_targets(space, &ahead, &later, &new[1]);
-    ff_pose_switch change = {&old[0], &old[1], &new[0], &new[1], LATER, {1.0, 1.0}};
+    ff_pose_switch change = {&old[0], &old[1], &new[0], &new[1], LATER, {1.0, 1.0}, {true, true}};
     ff_pose_offset_begin(&gait->offset, &change);
     ff_gait_advance(space, gait, &now, 0.0);
     ff_mind mind = ff_mind_new(body->heading);

@@ -214,7 +214,8 @@ static bool take_over(const ff_blend_space *space, ff_gait *gait, const ff_gait 
     ff_gait_advance(space, &ahead, &later, LATER);
     ff_gait_targets(space, &ahead, &later, &new_later);
     if (old.mode != gait->mode || ahead.mode != next->mode) return false;
-    ff_pose_switch change = {&old_now, &old_later, &new_now, &new_later, LATER, {until[0], until[1]}};
+    ff_pose_switch change = {&old_now, &old_later,           &new_now,      &new_later,
+                             LATER,    {until[0], until[1]}, {false, false}};
     *gait = taken;
     ff_pose_offset_begin(&gait->offset, &change);
     if ((old.blend.way == FF_RUNNING) != (gait->blend.way == FF_RUNNING)) gait->offset.time[0] = PACE_TIME;

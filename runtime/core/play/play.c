@@ -131,9 +131,11 @@ void ff_play_join(const ff_play_set *set, ff_play *play, const ff_play_targets s
         seen_from(&shown[i], &raw[i], &old[i]);
         seen_from(&raw[i], &raw[i], &new[i]);
     }
-    ff_pose_switch change = {&old[0], &old[1],
-                             &new[0], &new[1],
-                             later,   {until_landing(set, step, 0, time), until_landing(set, step, 1, time)}};
+    ff_pose_switch change = {&old[0], &old[1], &new[0], &new[1], .later = later};
+    for (int foot = 0; foot < 2; ++foot) {
+        change.until[foot] = until_landing(set, step, foot, time);
+        change.stands[foot] = shown[0].planted[foot] && raw[0].planted[foot];
+    }
     ff_pose_offset_begin(&play->offset, &change);
     play->joined = time;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 enum { BODY, FOOT, LEGS = FOOT + 2 }; /* of ff_pose_offset.time */
+enum { HEIGHT = 2, PITCH = 4 };       /* of what feet differ by */
 #define LEAST_TIME 0.02               /* s, that a foot gets at least */
 
 /* How much is left of a difference, and of its speed (s): the cubic that begins with both and ends with neither. The
@@ -40,16 +41,27 @@ static ff_vec3 turned(ff_quat p, ff_quat q)
     return ff_quat_log(ff_quat_mul(p, ff_quat_conj(q)));
 }
 
+/* The nearest speed with which the cubic of shares() goes from a difference to nothing without growing or overshooting
+ * (Fritsch and Carlson 1980). */
+static double shrinking(double difference, double speed, double time)
+{
+    double most = -3.0 * difference / time;
+    return ff_clamp(speed, ff_min(most, 0.0), ff_max(most, 0.0));
+}
+
 static void begin_foot(ff_pose_offset *offset, const ff_pose_switch *change, int foot)
 {
     double now[5], later[5];
     difference(&change->old_now->foot[foot], &change->new_now->foot[foot], now);
     difference(&change->old_later->foot[foot], &change->new_later->foot[foot], later);
+    double time = ff_clamp(change->until[foot], LEAST_TIME, FF_POSE_OFFSET_TIME);
     for (int i = 0; i < 5; ++i) {
+        double speed = (later[i] - now[i]) / change->later;
+        if (change->stands[foot] && (i == HEIGHT || i == PITCH)) speed = shrinking(now[i], speed, time);
         offset->foot[foot][0][i] = (float)now[i];
-        offset->foot[foot][1][i] = (float)((later[i] - now[i]) / change->later);
+        offset->foot[foot][1][i] = (float)speed;
     }
-    offset->time[FOOT + foot] = (float)ff_clamp(change->until[foot], LEAST_TIME, FF_POSE_OFFSET_TIME);
+    offset->time[FOOT + foot] = (float)time;
 }
 
 void ff_pose_offset_begin(ff_pose_offset *offset, const ff_pose_switch *change)

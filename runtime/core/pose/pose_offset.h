@@ -33,6 +33,9 @@ typedef struct ff_pose_switch {
     const ff_pose_targets *old_now, *old_later, *new_now, *new_later;
     double later;
     double until[2];
+    /* On the ground in both: it may neither rise nor sink, so what its height and pitch differ by only shrinks, however
+     * fast it came down. */
+    bool stands[2];
 } ff_pose_switch;
 
 /* Plain data, no padding: may be hashed and saved as bytes. All zero: nothing to add. */
