@@ -56,6 +56,20 @@ static double smallest_gap(const ff_knot *x0, const ff_knot *x1, const ff_knot *
     return least;
 }
 
+/* Do any two meet, each pair looked at by itself? */
+static bool any_pair_hits(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
+                          ff_vec2 apart, const ff_limits *limits)
+{
+    bool any = false;
+    for (uint8_t i = 0; i < FF_COLLIDER_COUNT; ++i)
+        for (uint8_t k = 0; k < FF_COLLIDER_COUNT; ++k) {
+            const float from[3] = {x0->a[i], x0->b[i], x0->y[i]}, to[3] = {x1->a[i], x1->b[i], x1->y[i]};
+            any |=
+                ff_colliders_hit((ff_touch){i, k}, from, to, y0, y1, (float)apart.a, (float)apart.b, limits);
+        }
+    return any;
+}
+
 static void colliders_that_pass_are_seen_between_the_moments(void **state)
 {
     (void)state;
@@ -71,11 +85,19 @@ static void colliders_that_pass_are_seen_between_the_moments(void **state)
         ff_limits limits = ff_limits_of(ff_collider_radius, ff_collider_radius, (float)margin);
         bool hit = ff_knots_hit(&x0, &x1, &y0, &y1, (float)apart.a, (float)apart.b, &limits);
         assert_int_equal(hit, gap < margin);
+        assert_int_equal(hit, any_pair_hits(&x0, &x1, &y0, &y1, apart, &limits));
         /* The other way round it is the same. */
         assert_int_equal(hit, ff_knots_hit(&y0, &y1, &x0, &x1, (float)-apart.a, (float)-apart.b, &limits));
         float reach =
             fmaxf(ff_knot_radius(&x0, ff_collider_radius), ff_knot_radius(&x1, ff_collider_radius)) +
             fmaxf(ff_knot_radius(&y0, ff_collider_radius), ff_knot_radius(&y1, ff_collider_radius));
+        ff_touch touch = {0, 0};
+        assert_int_equal(hit, ff_bodies_hit(&x0, &x1, &y0, &y1, (float)apart.a, (float)apart.b, 9.0f, 9.0f,
+                                            &limits, &touch));
+        const float from[3] = {x0.a[touch.mine], x0.b[touch.mine], x0.y[touch.mine]},
+                    to[3] = {x1.a[touch.mine], x1.b[touch.mine], x1.y[touch.mine]};
+        if (hit)
+            assert_true(ff_colliders_hit(touch, from, to, &y0, &y1, (float)apart.a, (float)apart.b, &limits));
         if (hit)
             assert_true(
                 ff_roots_near(&x0, &x1, &y0, &y1, (float)apart.a, (float)apart.b, reach + (float)margin));

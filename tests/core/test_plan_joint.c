@@ -95,6 +95,24 @@ static void bounds_of_joints_hold(void **state)
     FF_ASSERT_BELOW(tightest, 0.03);
 }
 
+/* Searches look at one collider where they can, and rely on its being where all six together have it. */
+static void one_collider_is_to_the_bit_where_all_together_have_it(void **state)
+{
+    const plan_world *w = *state;
+    ff_random random = {9, 0, 0};
+    for (int i = 0; i < CASES; ++i) {
+        pair p = random_pair(w->set, &random);
+        float t = (float)ff_random_range(&random, -0.1, (double)p.next->duration + 0.1);
+        ff_knot all = joined(w->set, &p, t);
+        for (int c = 0; c < FF_COLLIDER_COUNT; ++c) {
+            float one[3];
+            ff_set_sample_one(w->set, p.next, t, c, one);
+            ff_joint_add_one(p.joint, t, c, one);
+            assert_true(one[0] == all.a[c] && one[1] == all.b[c] && one[2] == all.y[c]);
+        }
+    }
+}
+
 /* --------------------------------------------------------------------------------------------- in a crowd */
 
 enum { PEOPLE = 24, SECONDS = 12, HZ = 30 };
@@ -188,6 +206,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_action_begins_where_the_one_before_ended),
         cmocka_unit_test(bounds_of_joints_hold),
+        cmocka_unit_test(one_collider_is_to_the_bit_where_all_together_have_it),
         cmocka_unit_test(played_bodies_are_where_their_tracks_have_them),
     };
     return cmocka_run_group_tests_name("joints of actions", tests, plan_world_open, plan_world_close);

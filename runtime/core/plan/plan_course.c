@@ -7,19 +7,41 @@ static float time_at(const ff_course *c, uint32_t knot)
     return (float)(c->stance->knot + (int32_t)knot) * (float)FF_TRACK_STEP - c->stance->time;
 }
 
-/* The root at all knots, and at four more the last one again, as four are looked at at a time. */
-static void begin_course(const ff_sight *sight, ff_course *c)
+/* From the stance's tail to a last knot. */
+static uint32_t knots_to(const ff_stance *st, int32_t last)
 {
-    const ff_stance *st = c->stance;
-    c->begun = true;
+    uint32_t more = last > st->knot ? (uint32_t)(last - st->knot) : 0;
+    return 1 + (more < FF_SIGHT_KNOTS - 1 ? more : FF_SIGHT_KNOTS - 1);
+}
+
+void ff_course_begin(const ff_sight *sight, const ff_stance *st, const ff_set_next *next, ff_course *c)
+{
+    const ff_set_action *b = &sight->set->actions[next->action];
+    c->stance = st;
+    c->action = b;
+    c->anchor = next->other ? st->other : st->at;
+    c->joint = &sight->set->joints[next - sight->set->next];
+    c->last = (int32_t)((st->time + b->duration) / (float)FF_TRACK_STEP);
+    c->total = knots_to(st, c->last);
+    c->a = c->anchor[0] + st->cosine * b->circle[0] - st->sine * b->circle[1];
+    c->b = c->anchor[1] + st->sine * b->circle[0] + st->cosine * b->circle[1];
+    c->radius = b->circle[2] + next->jump + st->moved + sight->margin;
+    c->rooted = false;
     c->made = 1;
     c->knots[0] = st->tail;
+}
+
+/* The root at all knots, and at four more the last one again, as four are looked at at a time. */
+static void find_roots(const ff_action_set *set, ff_course *c)
+{
+    const ff_stance *st = c->stance;
+    c->rooted = true;
     c->root_a[0] = st->tail.a[FF_COLLIDER_ROOT];
     c->root_b[0] = st->tail.b[FF_COLLIDER_ROOT];
     c->about[0] = st->about;
     for (uint32_t k = 1; k < c->total; ++k) {
         float t = time_at(c, k), move[2];
-        ff_set_root root = ff_set_root_at(sight->set, c->action, t);
+        ff_set_root root = ff_set_root_at(set, c->action, t);
         if (t < c->joint->over) {
             ff_joint_move(c->joint, t, move);
             root.a += move[0];
@@ -54,9 +76,25 @@ static const ff_knot *course_knot(const ff_sight *sight, ff_course *c, uint32_t 
     return to;
 }
 
+/* One collider at a knot: a, b, y. */
+static void course_collider(const ff_sight *sight, const ff_course *c, uint32_t k, int i, float out[3])
+{
+    if (c->made >> k & 1u) {
+        out[0] = c->knots[k].a[i];
+        out[1] = c->knots[k].b[i];
+        out[2] = c->knots[k].y[i];
+        return;
+    }
+    float t = time_at(c, k), local[3], cosine = c->stance->cosine, sine = c->stance->sine;
+    ff_set_sample_one(sight->set, c->action, t, i, local);
+    if (t < c->joint->over) ff_joint_add_one(c->joint, t, i, local);
+    out[0] = c->anchor[0] + cosine * local[0] - sine * local[1];
+    out[1] = c->anchor[1] + sine * local[0] + cosine * local[1];
+    out[2] = local[2];
+}
+
 void ff_course_make(const ff_sight *sight, ff_course *c)
 {
-    if (!c->begun) begin_course(sight, c);
     for (uint32_t k = 0; k < c->total; ++k)
         course_knot(sight, c, k);
 }
@@ -121,15 +159,17 @@ static uint64_t near_path(const ff_course *c, const ff_sight_path *path, uint32_
     return near & (((uint64_t)1 << (c->total - 1)) - 1u);
 }
 
-/* Do the bodies meet between a knot of the course and the next? */
-static bool bodies_meet(ff_sight *sight, ff_course *c, uint32_t who, uint32_t k)
+/* Do the bodies meet between a knot of the course and the next? *with: where, if they do. */
+static bool bodies_meet(const ff_sight *sight, ff_course *c, uint32_t who, uint32_t k, ff_meeting *with)
 {
     float r0, r1, mine = c->about[k] > c->about[k + 1] ? c->about[k] : c->about[k + 1];
     const ff_sight_track *seen = &sight->seen[who];
     const ff_knot *x0 = course_knot(sight, c, k), *x1 = course_knot(sight, c, k + 1);
-    const ff_knot *y0 = ff_sight_knot(seen, c->stance->knot + (int32_t)k, &r0);
-    const ff_knot *y1 = ff_sight_knot(seen, c->stance->knot + (int32_t)k + 1, &r1);
-    return ff_bodies_hit(x0, x1, y0, y1, seen->a, seen->b, mine, r0 > r1 ? r0 : r1, &sight->limits);
+    with->who = (uint16_t)who;
+    with->knot = c->stance->knot + (int32_t)k;
+    const ff_knot *y0 = ff_sight_knot(seen, with->knot, &r0), *y1 = ff_sight_knot(seen, with->knot + 1, &r1);
+    return ff_bodies_hit(x0, x1, y0, y1, seen->a, seen->b, mine, r0 > r1 ? r0 : r1, &sight->limits,
+                         &with->touch);
 }
 
 /* One who is near: between which knots. */
@@ -140,60 +180,83 @@ typedef struct encounter {
 } encounter;
 
 /* Does its root come near? *touch: it meets the other root, and that is all there is to know. */
-static bool comes_near(ff_sight *sight, ff_course *c, uint32_t who, encounter *out, bool *touch)
+static bool comes_near(ff_sight *sight, ff_course *c, uint32_t who, encounter *out, bool *touch,
+                       ff_meeting *with)
 {
     const ff_stance *st = c->stance;
     *touch = false;
-    if (!ff_sight_room_near(&sight->seen[who], ff_sight_chunk(sight, st->knot),
-                            ff_sight_chunk(sight, c->last), c->a, c->b, c->radius))
-        return false;
-    if (!c->begun) begin_course(sight, c);
+    if (!c->rooted) find_roots(sight->set, c);
     uint32_t from = st->knot < FF_TRACK_KNOTS_MAX ? (uint32_t)st->knot : FF_TRACK_KNOTS_MAX;
     float square[FF_SIGHT_KNOTS + 4], least = INFINITY;
     out->who = who;
     out->near = near_path(c, path_of(sight, who), from, sight->margin, square);
     if (!out->near) return false;
-    for (uint32_t k = 0; k + 1 < c->total; ++k)
-        if (square[k] < least) {
+    for (uint32_t k = 0; out->near >> k; ++k)
+        if ((out->near >> k & 1u) && square[k] < least) {
             out->nearest = k;
             least = square[k];
         }
     *touch = least <= sight->limits.squared[FF_COLLIDER_ROOT][FF_COLLIDER_ROOT] &&
-             bodies_meet(sight, c, who, out->nearest);
+             bodies_meet(sight, c, who, out->nearest, with);
     return true;
 }
 
 /* Do the bodies meet? Where they are nearest they meet first. */
-static bool bodies_touch(ff_sight *sight, ff_course *c, const encounter *e)
+static bool bodies_touch(ff_sight *sight, ff_course *c, const encounter *e, ff_meeting *with)
 {
     uint64_t near = e->near;
-    if ((near >> e->nearest & 1u) && bodies_meet(sight, c, e->who, e->nearest)) return true;
+    if ((near >> e->nearest & 1u) && bodies_meet(sight, c, e->who, e->nearest, with)) return true;
     near &= ~((uint64_t)1 << e->nearest);
     for (uint32_t k = 0; near >> k; ++k)
-        if ((near >> k & 1u) && bodies_meet(sight, c, e->who, k)) return true;
+        if ((near >> k & 1u) && bodies_meet(sight, c, e->who, k, with)) return true;
     return false;
+}
+
+/* Where one action is in somebody's way the next one mostly is as well: are the same two colliders in the same place? */
+static bool meets_again(const ff_sight *sight, ff_course *c)
+{
+    const ff_meeting *met = &c->stance->met;
+    int32_t k = met->knot - c->stance->knot;
+    if (met->who >= sight->count || k < 0 || k + 1 >= (int32_t)c->total) return false;
+    const ff_sight_track *seen = &sight->seen[met->who];
+    float radius, x0[3], x1[3];
+    course_collider(sight, c, (uint32_t)k, met->touch.mine, x0);
+    course_collider(sight, c, (uint32_t)k + 1, met->touch.mine, x1);
+    const ff_knot *y0 = ff_sight_knot(seen, met->knot, &radius),
+                  *y1 = ff_sight_knot(seen, met->knot + 1, &radius);
+    return ff_colliders_hit(met->touch, x0, x1, y0, y1, seen->a, seen->b, &sight->limits);
+}
+
+/* Keeps a meeting, to look at whom it is with first from now on. */
+static void remember(ff_sight *sight, ff_stance *st, uint32_t place, const ff_meeting *met)
+{
+    uint8_t who = st->near[place];
+    st->near[place] = st->near[0];
+    st->near[0] = who;
+    st->met = sight->met = *met;
 }
 
 /* Is somebody of the near ones met? Roots first, all of them: they tell soonest, and of most. */
 bool ff_course_meets(ff_sight *sight, ff_course *c, ff_stance *st)
 {
     encounter list[FF_SIGHT_MAX];
-    uint32_t count = 0, met = FF_SIGHT_MAX;
+    uint32_t count = 0;
+    ff_meeting met;
     bool touch;
     if (c->total < 2) return false;
-    for (uint32_t i = 0; i < st->near_count && met == FF_SIGHT_MAX; ++i) {
-        if (!comes_near(sight, c, st->near[i], &list[count], &touch)) continue;
-        if (touch)
-            met = i;
-        else
-            list[count++].place = i;
+    if (meets_again(sight, c)) return true;
+    for (uint32_t i = 0; i < st->near_count; ++i) {
+        if (!comes_near(sight, c, st->near[i], &list[count], &touch, &met)) continue;
+        if (touch) {
+            remember(sight, st, i, &met);
+            return true;
+        }
+        list[count++].place = i;
     }
-    for (uint32_t i = 0; i < count && met == FF_SIGHT_MAX; ++i)
-        if (bodies_touch(sight, c, &list[i])) met = list[i].place;
-    if (met == FF_SIGHT_MAX) return false;
-    /* Who is in the way of one action is in the way of others: looked at first from now on. */
-    uint8_t who = st->near[met];
-    st->near[met] = st->near[0];
-    st->near[0] = who;
-    return true;
+    for (uint32_t i = 0; i < count; ++i)
+        if (bodies_touch(sight, c, &list[i], &met)) {
+            remember(sight, st, list[i].place, &met);
+            return true;
+        }
+    return false;
 }

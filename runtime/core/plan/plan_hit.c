@@ -85,26 +85,38 @@ static unsigned near_lanes(int i, const ff_knot *x0, const ff_knot *x1, const ff
 }
 #endif
 
-/* Do they share a height at some time of the interval? Heights taken for its whole. */
-static bool share_height(int i, const ff_knot *x0, const ff_knot *x1, int k, const ff_knot *y0,
-                         const ff_knot *y1)
+/* Do they share a height at some time of the interval, mine at heights x0 and x1? Heights taken for its whole. */
+static bool share_height(int i, float x0, float x1, int k, float y0, float y1)
 {
-    float low[2][2], high[2][2];
-    ff_collider_extent((uint32_t)i, x0->y[i], &low[0][0], &high[0][0]);
-    ff_collider_extent((uint32_t)i, x1->y[i], &low[0][1], &high[0][1]);
-    ff_collider_extent((uint32_t)k, y0->y[k], &low[1][0], &high[1][0]);
-    ff_collider_extent((uint32_t)k, y1->y[k], &low[1][1], &high[1][1]);
-    return fminf(low[0][0], low[0][1]) <= fmaxf(high[1][0], high[1][1]) &&
-           fminf(low[1][0], low[1][1]) <= fmaxf(high[0][0], high[0][1]);
+    float low_x, high_x, low_y, high_y, unused;
+    ff_collider_extent((uint32_t)i, x0 < x1 ? x0 : x1, &low_x, &unused);
+    ff_collider_extent((uint32_t)i, x0 < x1 ? x1 : x0, &unused, &high_x);
+    ff_collider_extent((uint32_t)k, y0 < y1 ? y0 : y1, &low_y, &unused);
+    ff_collider_extent((uint32_t)k, y0 < y1 ? y1 : y0, &unused, &high_y);
+    return low_x <= high_y && low_y <= high_x;
 }
 
-/* Does collider i of mine meet those of theirs that come near it? */
-static bool one_hits(int i, const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
-                     unsigned near)
+bool ff_colliders_hit(ff_touch pair, const float x0[3], const float x1[3], const ff_knot *y0,
+                      const ff_knot *y1, float a, float b, const ff_limits *limits)
 {
+    int i = pair.mine, k = pair.theirs;
+    float pa = y0->a[k] - (x0[0] - a), pb = y0->b[k] - (x0[1] - b);
+    float da = y1->a[k] - (x1[0] - a) - pa, db = y1->b[k] - (x1[1] - b) - pb;
+    return ff_nearest_pass(pa, pb, da, db) <= limits->squared[i][k] &&
+           share_height(i, x0[2], x1[2], k, y0->y[k], y1->y[k]);
+}
+
+enum { ROOT = FF_COLLIDER_ROOT, NOBODY = FF_COLLIDER_COUNT };
+
+/* Which of those that come near collider i of mine does it meet? The root is asked for first. */
+static int one_hits(int i, const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1,
+                    unsigned near)
+{
+    if ((near >> ROOT & 1u) && share_height(i, x0->y[i], x1->y[i], ROOT, y0->y[ROOT], y1->y[ROOT]))
+        return ROOT;
     for (int k = 0; near; ++k, near >>= 1)
-        if ((near & 1u) && share_height(i, x0, x1, k, y0, y1)) return true;
-    return false;
+        if ((near & 1u) && share_height(i, x0->y[i], x1->y[i], k, y0->y[k], y1->y[k])) return k;
+    return NOBODY;
 }
 
 bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
@@ -112,30 +124,37 @@ bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const
 {
     for (int i = 0; i < FF_COLLIDER_COUNT; ++i)
         if (one_hits(i, x0, x1, y0, y1,
-                     near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i], limits->reach, 0.0f, NULL)))
+                     near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i], limits->reach, 0.0f, NULL)) !=
+            NOBODY)
             return true;
     return false;
 }
 
-bool ff_bodies_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
-                   float b, float mine, float theirs, const ff_limits *limits)
+static bool met(ff_touch *touch, int mine, int theirs)
 {
-    enum { ROOT = FF_COLLIDER_ROOT };
+    if (mine == NOBODY || theirs == NOBODY) return false;
+    if (touch) *touch = (ff_touch){(uint8_t)mine, (uint8_t)theirs};
+    return true;
+}
+
+bool ff_bodies_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
+                   float b, float mine, float theirs, const ff_limits *limits, ff_touch *touch)
+{
     const float *squared = limits->squared[ROOT];
     unsigned of_mine, of_theirs, near;
     /* The roots first, each with all of the other one: they meet oftenest, and it is seen who else may. */
     near = near_lanes(ROOT, x0, x1, y0, y1, a, b, squared, limits->reach, mine, &of_theirs);
     if (!of_theirs) return false;
-    if (near && one_hits(ROOT, x0, x1, y0, y1, near)) return true;
+    if (near && met(touch, ROOT, one_hits(ROOT, x0, x1, y0, y1, near))) return true;
     near = near_lanes(ROOT, y0, y1, x0, x1, -a, -b, squared, limits->reach, theirs, &of_mine);
-    if (near && one_hits(ROOT, y0, y1, x0, x1, near)) return true;
+    if (near && met(touch, one_hits(ROOT, y0, y1, x0, x1, near), ROOT)) return true;
     of_mine &= ~(1u << ROOT);
     of_theirs &= ~(1u << ROOT);
     if (!of_theirs) return false;
     for (int i = 0; of_mine; ++i, of_mine >>= 1) {
         if (!(of_mine & 1u)) continue;
         near = near_lanes(i, x0, x1, y0, y1, a, b, limits->squared[i], limits->reach, 0.0f, NULL) & of_theirs;
-        if (near && one_hits(i, x0, x1, y0, y1, near)) return true;
+        if (near && met(touch, i, one_hits(i, x0, x1, y0, y1, near))) return true;
     }
     return false;
 }

@@ -44,9 +44,18 @@ static inline bool ff_roots_near(const ff_knot *x0, const ff_knot *x1, const ff_
 bool ff_knots_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
                   float b, const ff_limits *limits);
 
+/* Two colliders that meet. */
+typedef struct ff_touch {
+    uint8_t mine, theirs;
+} ff_touch;
+
 /* The same for bodies that radii (mine, theirs) about their roots hold, at both moments: those colliders are looked at alone
- * that come near the other body. */
+ * that come near the other body. *touch (may be NULL): two that meet; the roots if they do. */
 bool ff_bodies_hit(const ff_knot *x0, const ff_knot *x1, const ff_knot *y0, const ff_knot *y1, float a,
-                   float b, float mine, float theirs, const ff_limits *limits);
+                   float b, float mine, float theirs, const ff_limits *limits, ff_touch *touch);
+
+/* Do two of them alone? x0 and x1: a, b, height of mine. */
+bool ff_colliders_hit(ff_touch pair, const float x0[3], const float x1[3], const ff_knot *y0,
+                      const ff_knot *y1, float a, float b, const ff_limits *limits);
 
 #endif

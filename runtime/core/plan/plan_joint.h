@@ -74,6 +74,18 @@ static inline void ff_joint_move(const ff_joint *joint, float t, float move[2])
     move[1] = place * joint->jump.b[R] + speed * joint->rush_b[R];
 }
 
+/* A collider of next, i, at t seconds: all of it is added to its a, b, y. */
+static inline void ff_joint_add_one(const ff_joint *joint, float t, int i, float at[3])
+{
+    float s = (t - joint->from[i]) * joint->rate[i], place, speed;
+    s = s < 0.0f ? 0.0f : (s > 1.0f ? 1.0f : s);
+    ff_joint_left(s, &place, &speed);
+    float arc = speed * s * 16.0f;
+    at[0] += place * joint->jump.a[i] + speed * joint->rush_a[i] + arc * joint->arc_a[i];
+    at[1] += place * joint->jump.b[i] + speed * joint->rush_b[i] + arc * joint->arc_b[i];
+    at[2] += place * joint->jump.y[i];
+}
+
 /* Colliders of next at t seconds, with all of it added. */
 static inline void ff_joint_add(const ff_joint *joint, float t, const ff_knot *restrict at,
                                 ff_knot *restrict out)
@@ -100,13 +112,11 @@ static inline void ff_joint_add(const ff_joint *joint, float t, const ff_knot *r
     }
 #else
     for (int i = 0; i < FF_TRACK_LANES; ++i) {
-        float s = (t - joint->from[i]) * joint->rate[i], place, speed;
-        ff_joint_left(s, &place, &speed);
-        s = s < 0.0f ? 0.0f : (s > 1.0f ? 1.0f : s);
-        float arc = speed * s * 16.0f;
-        out->a[i] = at->a[i] + (place * joint->jump.a[i] + speed * joint->rush_a[i] + arc * joint->arc_a[i]);
-        out->b[i] = at->b[i] + (place * joint->jump.b[i] + speed * joint->rush_b[i] + arc * joint->arc_b[i]);
-        out->y[i] = at->y[i] + place * joint->jump.y[i];
+        float one[3] = {at->a[i], at->b[i], at->y[i]};
+        ff_joint_add_one(joint, t, i, one);
+        out->a[i] = one[0];
+        out->b[i] = one[1];
+        out->y[i] = one[2];
     }
 #endif
 }

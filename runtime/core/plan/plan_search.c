@@ -83,6 +83,8 @@ static bool improve(ff_search *s)
         bool again;
         if (n->flags & FF_NODE_DEAD) continue;
         if (!(n->flags & FF_NODE_TESTED)) {
+            /* Of those that would be found free, half lead to a place that has been taken since they were thought of. */
+            if (ff_search_is_taken(s, n)) continue;
             float g = n->g;
             if (!ff_search_is_free(s, n)) continue;
             if (n->g > g) { /* dearer than it looked: back into the queue */

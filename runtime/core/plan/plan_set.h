@@ -117,19 +117,38 @@ static inline void ff_mix_lanes(const float *p, const float *q, float f, float *
 #endif
 }
 
-/* Colliders of an action at t seconds from its start, in S0. */
-static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *action, float t,
-                                 ff_knot *restrict out)
+/* The sample of an action before t seconds from its start; *share: of the way to the next one. */
+static inline const ff_knot *ff_set_samples_at(const ff_action_set *set, const ff_set_action *action, float t,
+                                               float *share)
 {
     float at = t * (float)(action->knots - 1) / action->duration;
     int k = (int)at;
     k = k < 0 ? 0 : (k > (int)action->knots - 2 ? (int)action->knots - 2 : k);
     float f = at - (float)k;
-    f = f < 0.0f ? 0.0f : (f > 1.0f ? 1.0f : f);
-    const ff_knot *p = &set->samples[action->first_knot + (uint32_t)k], *q = p + 1;
+    *share = f < 0.0f ? 0.0f : (f > 1.0f ? 1.0f : f);
+    return &set->samples[action->first_knot + (uint32_t)k];
+}
+
+/* Colliders of an action at t seconds from its start, in S0. */
+static inline void ff_set_sample(const ff_action_set *set, const ff_set_action *action, float t,
+                                 ff_knot *restrict out)
+{
+    float f;
+    const ff_knot *p = ff_set_samples_at(set, action, t, &f), *q = p + 1;
     ff_mix_lanes(p->a, q->a, f, out->a);
     ff_mix_lanes(p->b, q->b, f, out->b);
     ff_mix_lanes(p->y, q->y, f, out->y);
+}
+
+/* The same of one of them, i: a, b, y. */
+static inline void ff_set_sample_one(const ff_action_set *set, const ff_set_action *action, float t, int i,
+                                     float out[3])
+{
+    float f;
+    const ff_knot *p = ff_set_samples_at(set, action, t, &f), *q = p + 1;
+    out[0] = p->a[i] + f * (q->a[i] - p->a[i]);
+    out[1] = p->b[i] + f * (q->b[i] - p->b[i]);
+    out[2] = p->y[i] + f * (q->y[i] - p->y[i]);
 }
 
 /* Colliders in S0, in their place. */

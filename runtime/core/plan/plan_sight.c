@@ -206,6 +206,7 @@ void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const f
     out->cost = (float)options->proximity_cost;
     out->cost_within = (float)options->proximity;
     out->count = out->mover_count = out->shape_count = 0;
+    out->met = (ff_meeting){.who = FF_SIGHT_MAX};
     see_tracks(out, world, options);
     find_rooms(out);
     see_movers(out, world);

@@ -47,6 +47,13 @@ typedef struct ff_sight_mover {
     int32_t yields;  /* knot from which on it goes round those who stand */
 } ff_sight_mover;
 
+/* A meeting with one that is seen, between a knot and the next. */
+typedef struct ff_meeting {
+    uint16_t who; /* FF_SIGHT_MAX: nobody yet */
+    ff_touch touch;
+    int32_t knot;
+} ff_meeting;
+
 typedef struct ff_sight {
     const ff_action_set *set;
     const ff_solids *solids;
@@ -63,6 +70,7 @@ typedef struct ff_sight {
     ff_sight_rooms rooms[FF_SIGHT_CHUNKS];
     ff_sight_path path[FF_SIGHT_MAX]; /* of those that have been come near to */
     bool pathed[FF_SIGHT_MAX];
+    ff_meeting met; /* the last one that was found */
     ff_sight_mover mover[FF_SIGHT_MOVING_MAX];
     ff_solid shape[FF_SIGHT_MAX];
     float cost, cost_within; /* proximity */
@@ -95,6 +103,7 @@ typedef struct ff_stance {
     uint32_t near_count, mover_count;
     uint8_t near[FF_SIGHT_MAX], mover[FF_SIGHT_MOVING_MAX];
     bool solids;
+    ff_meeting met; /* the last one of a successor; before there is one, of the search */
 } ff_stance;
 
 /* Fill in everything after `hold`; the heading is the one that the action began with. */

@@ -11,7 +11,7 @@ static bool meets(const ff_sight_track *seen, int32_t knot, const ff_knot *p, co
     const ff_knot *y0 = ff_sight_knot(seen, knot, &r0), *y1 = ff_sight_knot(seen, knot + 1, &r1);
     float theirs = r0 > r1 ? r0 : r1, reach = radius + theirs + margin;
     return ff_roots_near(p, q, y0, y1, seen->a, seen->b, reach) &&
-           ff_bodies_hit(p, q, y0, y1, seen->a, seen->b, radius, theirs, limits);
+           ff_bodies_hit(p, q, y0, y1, seen->a, seen->b, radius, theirs, limits, NULL);
 }
 
 /* Bit k: that one of those seen from i on, i + 3 at most, takes up room within radius of (a, b) in a window. */
@@ -135,6 +135,7 @@ void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine
     for (uint32_t i = 0; i < sight->mover_count; ++i)
         if (mover_near(&sight->mover[i], st->knot, last, ra, rb, reach))
             st->mover[st->mover_count++] = (uint8_t)i;
+    st->met = sight->met;
     ff_vec2 root = ff_add2(sight->origin, ff_v2((double)ra, (double)rb));
     st->solids = sight->shape_count > 0 || ff_solids_near(sight->solids, root, (double)reach);
 }
@@ -183,30 +184,12 @@ static float proximity_cost(const ff_sight *sight, ff_course *c)
     return sum;
 }
 
-/* From the stance's tail to a last knot. */
-static uint32_t knots_to(const ff_stance *st, int32_t last)
-{
-    uint32_t more = last > st->knot ? (uint32_t)(last - st->knot) : 0;
-    return 1 + (more < FF_SIGHT_KNOTS - 1 ? more : FF_SIGHT_KNOTS - 1);
-}
-
 bool ff_stance_free(ff_sight *sight, ff_stance *st, const ff_set_next *next, float *cost)
 {
     if (cost) *cost = 0.0f;
     if (st->near_count == 0 && st->mover_count == 0 && !st->solids) return true;
-    const ff_set_action *b = &sight->set->actions[next->action];
     ff_course c;
-    c.stance = st;
-    c.action = b;
-    c.anchor = next->other ? st->other : st->at;
-    c.joint = &sight->set->joints[next - sight->set->next];
-    c.last = (int32_t)((st->time + b->duration) / (float)FF_TRACK_STEP);
-    c.total = knots_to(st, c.last);
-    c.begun = false;
-    c.made = 0;
-    c.a = c.anchor[0] + st->cosine * b->circle[0] - st->sine * b->circle[1];
-    c.b = c.anchor[1] + st->sine * b->circle[0] + st->cosine * b->circle[1];
-    c.radius = b->circle[2] + next->jump + st->moved + sight->margin;
+    ff_course_begin(sight, st, next, &c);
     if (ff_course_meets(sight, &c, st)) return false;
     if (meets_things(sight, &c)) return false;
     if (cost && sight->cost > 0.0f) *cost = proximity_cost(sight, &c);

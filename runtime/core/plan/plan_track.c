@@ -224,7 +224,7 @@ bool ff_track_conflict(const ff_track *x, const ff_track *y, double from, double
         float mine = high_of(rx[0], rx[1]), theirs = high_of(ry[0], ry[1]),
               reach = mine + theirs + (float)margin;
         if (ff_roots_near(x0, x1, y0, y1, (float)apart.a, (float)apart.b, reach) &&
-            ff_bodies_hit(x0, x1, y0, y1, (float)apart.a, (float)apart.b, mine, theirs, &limits)) {
+            ff_bodies_hit(x0, x1, y0, y1, (float)apart.a, (float)apart.b, mine, theirs, &limits, NULL)) {
             if (when) *when = (double)k * FF_TRACK_STEP;
             return true;
         }
