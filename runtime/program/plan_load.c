@@ -9,7 +9,7 @@
 #include <time.h>
 
 static const double VIEW = 9.0, CLEAR = 1.2, SPACIOUS = 0.25; /* m, m, people per m2 */
-enum { NODES_MAX = 20000, WARM_UP = 10 };
+enum { WARM_UP = 10 };
 
 static double now(void)
 {
@@ -20,8 +20,19 @@ static double now(void)
 
 /* ------------------------------------------------------------------------------------------------------- street */
 
+/* What one who stands in the middle takes up, whichever way he faces. Plans in force are free of each other, so the others keep off his;
+ * nobody could plan his way out of theirs otherwise. */
+static ff_shape room_of_standing(const ff_action_set *set)
+{
+    ff_plan stand;
+    ff_track track;
+    ff_plan_stand(set, ff_v2(0.0, 0.0), 0.0, 0.0, &stand);
+    ff_plan_track(set, &stand, 0.0, &track);
+    return (ff_shape){.radius = (double)track.radius[0], .high = 1.9};
+}
+
 /* Somebody at a random free place, on his way across. */
-static void add_walker(ff_plan_street *s, double radius, ff_random *random)
+static void add_walker(ff_plan_street *s, double radius, const ff_shape *middle, ff_random *random)
 {
     ff_plan *plan = &s->plans[s->count];
     ff_track *track = &s->tracks[s->count];
@@ -36,7 +47,8 @@ static void add_walker(ff_plan_street *s, double radius, ff_random *random)
         for (uint32_t i = 0; i < s->count && free_place; ++i)
             free_place = !ff_track_conflict(track, s->list[i], -1.0, 0.1, NULL);
         if (!free_place) continue;
-        const ff_plan_world world = {.tracks = s->list, .track_count = s->count};
+        const ff_plan_world world = {
+            .tracks = s->list, .track_count = s->count, .shapes = middle, .shape_count = 1};
         ff_plan_goal goal =
             ff_plan_goal_at(ff_scale2(ff_fwd2(ff_random_range(random, -FF_PI, FF_PI)), radius));
         ff_plan_search(s->set, &world, plan, -1.0, &goal, &options, s->scratch, plan);
@@ -46,32 +58,25 @@ static void add_walker(ff_plan_street *s, double radius, ff_random *random)
     }
 }
 
-ff_status ff_plan_street_create(const ff_pack *pack, uint32_t count, uint64_t seed, ff_plan_street *out,
-                                ff_error *error)
+ff_status ff_plan_street_create(const ff_action_set *set, ff_plan_scratch *scratch, uint32_t count,
+                                uint64_t seed, ff_plan_street *out, ff_error *error)
 {
-    *out = (ff_plan_street){0};
-    ff_action_set *set = NULL;
-    ff_status status = ff_action_set_create(pack, 0, &set, error);
-    if (status != FF_OK) return status;
-    out->set = set;
+    *out = (ff_plan_street){.set = set, .scratch = scratch};
     out->plans = ff_calloc(count, sizeof *out->plans);
     out->tracks = ff_calloc(count, sizeof *out->tracks);
     out->list = ff_calloc(count, sizeof(const ff_track *));
     if (!out->plans || !out->tracks || !out->list)
         return ff_fail(error, FF_ERR_NO_MEMORY, "the plans of %u people", count);
-    status = ff_plan_scratch_create(set, NODES_MAX, &out->scratch, error);
-    if (status != FF_OK) return status;
     double radius = ff_min(VIEW, CLEAR + sqrt(count / (SPACIOUS * FF_PI)));
+    const ff_shape middle = room_of_standing(set);
     ff_random random = {seed, 0, 0};
     for (uint32_t i = 0; i < count; ++i)
-        add_walker(out, radius, &random);
+        add_walker(out, radius, &middle, &random);
     return FF_OK;
 }
 
 void ff_plan_street_destroy(ff_plan_street *street)
 {
-    ff_plan_scratch_destroy(street->scratch);
-    ff_action_set_destroy((ff_action_set *)street->set);
     free(street->plans);
     free(street->tracks);
     free(street->list);
@@ -126,32 +131,52 @@ static void search_one(const ff_plan_street *street, const ff_plan_options *opti
     if (*cost >= 0.0 && exact > 0.0) ratio[sum->ratios++] = *cost / exact;
 }
 
-ff_status ff_plan_load_measure(const ff_plan_street *street, const ff_plan_options *options,
-                               uint32_t problems, double distance, const double *exact, double *costs,
-                               ff_plan_load *out, ff_error *error)
+/* Of those of a street. */
+static uint32_t first_problem(uint32_t street, uint32_t problems, uint32_t street_count)
+{
+    return (uint32_t)((uint64_t)problems * street / street_count);
+}
+
+/* The highest median of a street; sorts each street's. */
+static double worst_median(double *ms, uint32_t problems, uint32_t street_count)
+{
+    double worst = 0.0;
+    for (uint32_t s = 0; s < street_count; ++s) {
+        uint32_t first = first_problem(s, problems, street_count),
+                 last = first_problem(s + 1, problems, street_count);
+        worst = ff_max(worst, at_share(ms + first, last - first, 0.5));
+    }
+    return worst;
+}
+
+ff_status ff_plan_load_measure(const ff_plan_street *streets, uint32_t street_count,
+                               const ff_plan_options *options, uint32_t problems, double distance,
+                               const double *exact, double *costs, ff_plan_load *out, ff_error *error)
 {
     double *ms = ff_calloc(problems, sizeof *ms), *expanded = ff_calloc(problems, sizeof *expanded);
     double *ratio = ff_calloc(problems, sizeof *ratio);
     sums sum = {0}, none = {0};
     if (ms && expanded && ratio) {
-        /* Memory and tables are touched before anything is measured, as in a crowd that has walked for a while. */
-        for (uint32_t i = 0; i < problems && i < WARM_UP; ++i) {
-            double unused;
-            search_one(street, options, i, distance, 0.0, &none, ms, expanded, ratio, &unused);
-        }
-        for (uint32_t i = 0; i < problems; ++i) {
+        for (uint32_t s = 0; s < street_count; ++s) {
+            const ff_plan_street *street = &streets[s];
+            uint32_t first = first_problem(s, problems, street_count),
+                     last = first_problem(s + 1, problems, street_count);
             double cost;
-            search_one(street, options, i, distance, exact ? exact[i] : 0.0, &sum, ms, expanded, ratio,
-                       &cost);
-            if (costs) costs[i] = cost;
+            /* Memory and tables are touched before anything is measured, as in a crowd that has walked for a while. */
+            for (uint32_t i = first; i < last && i < first + WARM_UP; ++i)
+                search_one(street, options, i, distance, 0.0, &none, ms, expanded, ratio, &cost);
+            for (uint32_t i = first; i < last; ++i) {
+                search_one(street, options, i, distance, exact ? exact[i] : 0.0, &sum, ms, expanded, ratio,
+                           &cost);
+                if (costs) costs[i] = cost;
+            }
         }
         *out = (ff_plan_load){.expanded_median = at_share(expanded, problems, 0.5),
                               .expanded_p90 = at_share(expanded, problems, 0.9),
                               .children_per_s = sum.generated / sum.seconds,
                               .expanded_per_s = sum.expanded / sum.seconds,
                               .tested_per_s = sum.tested / sum.seconds,
-                              .ms_median = at_share(ms, problems, 0.5),
-                              .ms_p99 = at_share(ms, problems, 0.99),
+                              .ms_worst = worst_median(ms, problems, street_count),
                               .reached = (double)sum.outcome[FF_PLAN_REACHED] / problems,
                               .ahead = (double)sum.outcome[FF_PLAN_AHEAD] / problems,
                               .part = (double)sum.outcome[FF_PLAN_PART] / problems,
@@ -159,6 +184,8 @@ ff_status ff_plan_load_measure(const ff_plan_street *street, const ff_plan_optio
                               .ratio_median = at_share(ratio, sum.ratios, 0.5),
                               .ratio_p95 = at_share(ratio, sum.ratios, 0.95),
                               .progress = sum.progress / problems};
+        out->ms_median = at_share(ms, problems, 0.5);
+        out->ms_p99 = at_share(ms, problems, 0.99);
     }
     bool good = ms && expanded && ratio;
     free(ms);
