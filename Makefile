@@ -159,6 +159,15 @@ test-programs: all $(test_bin) $(e2e_bin) $(B)/builtin.ffpack
 $(B)/builtin.ffpack: $(B)/footfall-pack
 	echo "pack $@"
 	$< build -o $@ --quiet >/dev/null
+# And one of captured clips, where the outside data is: feet that slide as they land, toes that stay up, clips that end in a landing.
+ifneq ($(wildcard $(FF_SHARED)/data/cmu/.),)
+test-programs: $(B)/captured.ffpack
+captured := $(patsubst %,$(FF_SHARED)/data/cmu/%,02/02_01.amc 06/06_06.bvh 09/09_12.amc 16/16_13.amc 16/16_17.amc \
+    16/16_29.amc 35/35_14.amc 91/91_02.amc 91/91_17.amc 127/127_19.amc)
+$(B)/captured.ffpack: $(B)/footfall-pack
+	echo "pack $@"
+	$< build -o $@ --quiet $(captured) >/dev/null
+endif
 fuzz-programs: $(fuzz_bin)
 bench-programs: $(bench_bin)
 

@@ -1,4 +1,4 @@
-/* built_in_pack.h - the pack of the built-in clips that make builds before any test. Needs _GNU_SOURCE (readlink). */
+/* built_in_pack.h - the packs that make builds before any test. Needs _GNU_SOURCE (readlink). */
 #ifndef FF_TEST_BUILT_IN_PACK_H
 #define FF_TEST_BUILT_IN_PACK_H
 
@@ -6,13 +6,11 @@
 
 #include <unistd.h>
 
-/* Its path: three names above the program's own (build/tests/ROOM/PROGRAM). */
-static inline const char *ff_built_in_pack_path(void)
+/* Beside them, three names above the program's own (build/tests/ROOM/PROGRAM). */
+static inline const char *ff_made_pack_path(char *path, size_t size, const char *name)
 {
-    static const char name[] = "/builtin.ffpack";
-    static char path[4096];
-    ssize_t length = readlink("/proc/self/exe", path, sizeof path - sizeof name);
-    assert_true(length > 0 && (size_t)length < sizeof path - sizeof name);
+    ssize_t length = readlink("/proc/self/exe", path, size - strlen(name) - 1);
+    assert_true(length > 0 && (size_t)length < size - strlen(name) - 1);
     path[length] = 0;
     for (int i = 0; i < 3; ++i) {
         char *slash = strrchr(path, '/');
@@ -20,6 +18,21 @@ static inline const char *ff_built_in_pack_path(void)
         *slash = 0;
     }
     return strcat(path, name);
+}
+
+/* The pack of the built-in clips. */
+static inline const char *ff_built_in_pack_path(void)
+{
+    static char path[4096];
+    return ff_made_pack_path(path, sizeof path, "/builtin.ffpack");
+}
+
+/* The pack of a few captured clips, or NULL where the outside data is not there (the test must then say that it skipped). */
+static inline const char *ff_captured_pack_path(void)
+{
+    static char path[4096];
+    if (!ff_shared_folder()) return NULL;
+    return ff_made_pack_path(path, sizeof path, "/captured.ffpack");
 }
 
 #endif

@@ -14,11 +14,12 @@ typedef struct play_world {
     uint32_t stand; /* an action that only stands */
 } play_world;
 
-static inline int play_world_open(void **state)
+static inline int play_world_open(void **state, const char *path)
 {
     static play_world w;
     ff_error error;
-    FF_ASSERT_OK(ff_pack_open(ff_built_in_pack_path(), &w.pack, &error), error);
+    memset(&w, 0, sizeof w);
+    FF_ASSERT_OK(ff_pack_open(path, &w.pack, &error), error);
     FF_ASSERT_OK(ff_blend_space_create(w.pack, &w.space, &error), error);
     FF_ASSERT_OK(ff_play_set_create(w.pack, w.space, &w.set, &error), error);
     while (w.stand < w.pack->action_count && w.pack->actions[w.stand].mode != FF_MODE_IDLE)

@@ -382,7 +382,8 @@ ff_status ff_crowd_agent_plan(const ff_crowd *crowd, ff_agent agent, ff_planned_
             const ff_play_foot *was = &play.step[0].foot[foot];
             bool moved = !was->planted || was->a != feet[foot].a || was->b != feet[foot].b;
             if (feet[foot].planted && moved)
-                put_print(&list, &feet[foot], foot, play.step[0].end, play.step[0].action);
+                put_print(&list, &feet[foot], foot, ff_play_landing(f->play, &play.step[0], foot),
+                          play.step[0].action);
         }
     }
     *count = list.count;

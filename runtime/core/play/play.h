@@ -104,4 +104,8 @@ void ff_play_join(const ff_play_set *set, ff_play *play, const ff_play_targets s
 /* Where the feet are as an entry ends. */
 void ff_play_feet_after(const ff_play_set *set, const ff_play_step *step, ff_play_foot feet[2]);
 
+/* When a foot has come to stand where it stands as an entry ends (s, absolute): on its print, and down on the ground. Captured
+ * feet are down up to 0.1 s before the entry ends and the next one is begun on them. */
+double ff_play_landing(const ff_play_set *set, const ff_play_step *step, int foot);
+
 #endif

@@ -6,9 +6,12 @@
 #include <string.h>
 
 #define GRIP 0.12                  /* s, in which a foot lets go of the ground and takes hold of it */
+#define FOOT 0.1                   /* m, more than any foot is over the ground on which it stands */
 #define RAISE (25.0 * FF_DEG)      /* a heel may be raised so far before the hips come down for it */
 #define MOST_RAISE (35.0 * FF_DEG) /* and so far at all */
 #define MOST_DROP 0.10             /* m */
+#define STEEP (50.0 * FF_DEG)      /* toes hang down so far as they were captured, ... */
+#define STEEPER (20.0 * FF_DEG)    /* ... and so much more at most */
 #define ROUND 0.01                 /* m, over which hips begin to come down */
 
 static double local_time(const ff_play_step *step, double time)
@@ -42,6 +45,15 @@ void ff_play_feet_after(const ff_play_set *set, const ff_play_step *step, ff_pla
         bool ends = count > 0 && action->stance[foot][count - 1].to >= action->duration;
         feet[foot] = ends ? stance_place(step, action, foot, count - 1) : (ff_play_foot){0};
     }
+}
+
+double ff_play_landing(const ff_play_set *set, const ff_play_step *step, int foot)
+{
+    if (step->action == FF_PLAY_STAND) return step->start;
+    const ff_play_action *action = &set->actions[step->action];
+    uint32_t count = action->stance_count[foot];
+    return count > 0 ? step->start + ff_max(action->stance[foot][count - 1].down, 0.0) / step->pace
+                     : step->end;
 }
 
 /* What is added to the clip's foot on the ground, in the world: m, m, rad. */
@@ -108,12 +120,47 @@ static uint32_t stance_at(const ff_play_step *step, const ff_play_action *action
     return next;
 }
 
+/* A captured foot may still be over the ground, its toes by 3 cm, when the plan has the body on it: the toes go down about the
+ * heel, then the whole foot, by most together. */
+static void put_down(const ff_body_frame *body, int foot, double most, ff_play_targets *out)
+{
+    ff_play_over over = ff_play_over_ground(body, foot, out->ball[foot].y, out->foot[foot]);
+    double toes = ff_min(most, over.toes), sole = ff_min(most - toes, over.sole);
+    out->ball[foot].y -= toes + sole;
+    if (!(toes > 0.0)) return;
+    ff_vec3 ball = body->offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+    ff_vec3 from_heel = ff_quat_rotate(out->foot[foot], ff_sub3(ball, body->heel[foot]));
+    double square = ff_dot3(from_heel, from_heel), was = from_heel.y, is = was - toes;
+    double turn = ff_atan2(was, sqrt(ff_max(square - was * was, 0.0))) -
+                  ff_atan2(is, sqrt(ff_max(square - is * is, 0.0)));
+    double yaw = ff_play_foot_yaw(out->foot[foot]);
+    out->foot[foot] = ff_quat_mul(ff_quat_axis(ff_v3(ff_cos(yaw), 0.0, -ff_sin(yaw)), turn), out->foot[foot]);
+}
+
+/* m: by how much a foot is put down at most: all that it is over the ground while it stands, before and after that as much as
+ * brings it there. next: its stance, or the one it comes to; left: there was one before. */
+static double put_down_most(const ff_play_action *action, int foot, uint32_t next, bool left, double local)
+{
+    double most = 0.0;
+    if (left) {
+        const ff_play_stance *from = &action->stance[foot][next - 1];
+        most = from->over[1] * (1.0 - ff_smooth((local - from->to) / GRIP));
+    }
+    if (next == action->stance_count[foot]) return most;
+    const ff_play_stance *to = &action->stance[foot][next];
+    if (to->from <= 0.0) return FOOT;
+    if (local >= to->down) return to->over[0] + FOOT * ff_smooth((local - to->down) / (0.5 * GRIP));
+    double near = ff_max(0.0, 1.0 - (to->down - local) / GRIP); /* a foot meets the ground with some speed */
+    return ff_max(most, to->over[0] * near * near * (2.0 - near));
+}
+
 /* A foot at local time: its place if it stands, else the clip's way, led from where it stood to where it will. */
-static void place_foot(const ff_play_step *step, const ff_play_action *action, int foot, double local,
-                       ff_play_targets *out)
+static void place_foot(const ff_body_frame *body, const ff_play_step *step, const ff_play_action *action,
+                       int foot, double local, ff_play_targets *out)
 {
     uint32_t count = action->stance_count[foot], next = stance_at(step, action, foot, local);
     swing_end from = {0.0, {{0.0, 0.0}, 0.0}, {0.0, 0.0}}, to = from;
+    bool left = next > 0 && (next > 1 || action->stance[foot][0].from > 0.0 || step->foot[foot].planted);
     if (next < count && action->stance[foot][next].from <= local) {
         ff_play_foot real = stance_place(step, action, foot, next);
         from.lead = lead_of_stance(step, action, foot, next);
@@ -121,7 +168,6 @@ static void place_foot(const ff_play_step *step, const ff_play_action *action, i
         out->planted[foot] = 1;
         out->grip[foot] = 1.0;
     } else {
-        bool left = next > 0 && (next > 1 || action->stance[foot][0].from > 0.0 || step->foot[foot].planted);
         if (left) from = end_of_stance(step, action, foot, next - 1, 1);
         to.time = from.time + FF_PLAY_SETTLE;
         if (next < count) to = end_of_stance(step, action, foot, next, 0);
@@ -132,6 +178,7 @@ static void place_foot(const ff_play_step *step, const ff_play_action *action, i
         out->grip[foot] = 1.0 - ff_smooth(ff_min(since, until) / GRIP);
     }
     out->foot[foot] = ff_quat_mul(ff_quat_yaw(from.lead.yaw), out->foot[foot]);
+    put_down(body, foot, put_down_most(action, foot, next, left, local), out);
 }
 
 /* ------------------------------------------------------------------------------------------- actions */
@@ -153,7 +200,7 @@ static void action_targets(const ff_play_set *set, const ff_play_step *step, dou
     for (int foot = 0; foot < 2; ++foot) {
         out->ball[foot] = ff_ground(place(step, ahead, ff_plane(at.ball[foot])), at.ball[foot].y);
         out->foot[foot] = ff_quat_mul(turn, at.foot[foot]);
-        place_foot(step, action, foot, local, out);
+        place_foot(&set->space->body, step, action, foot, local, out);
     }
 }
 
@@ -270,6 +317,17 @@ void ff_play_root(const ff_play_set *set, const ff_play *play, double time, ff_v
     *root = ff_add2(*root, ff_from_frame2(ff_fwd2(*heading), ff_v2(hips.x, hips.y)));
 }
 
+/* Captured toes hang down from a foot that swings on steeply; where they came near the floor they would turn up all at once, by
+ * 50 degrees within a frame: the steeper they are the less they hang. */
+static ff_quat hang_less(const ff_body_frame *body, int foot, double yaw, ff_quat turn, ff_quat toes)
+{
+    ff_vec3 tip = ff_quat_rotate(turn, ff_quat_rotate(toes, body->toe[foot]));
+    double steep = -ff_atan2(tip.y, tip.z * ff_cos(yaw) + tip.x * ff_sin(yaw)), over = steep - STEEP;
+    if (!(over > 0.0)) return toes;
+    double less = over - over / (1.0 + over / STEEPER);
+    return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -less), toes);
+}
+
 static void pose_legs(const ff_body_frame *body, const ff_play_targets *at, ff_quat *rotations)
 {
     ff_legs legs;
@@ -278,6 +336,8 @@ static void pose_legs(const ff_body_frame *body, const ff_play_targets *at, ff_q
     for (int foot = 0; foot < 2; ++foot) {
         ff_foothold ball = {at->ball[foot].z, at->ball[foot].x, at->ball[foot].y,
                             ff_play_foot_yaw(at->foot[foot])};
+        ff_quat *toes = &rotations[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+        *toes = hang_less(body, foot, ball.yaw, at->foot[foot], *toes);
         target[foot] =
             (ff_leg_target){ball, at->foot[foot], 0.0, MOST_RAISE, at->grip[foot], 0.0, 0.0, 0.0, 0.0, 0.0};
     }

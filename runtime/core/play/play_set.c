@@ -6,14 +6,32 @@
 
 #include <stdlib.h>
 
-#define STILL 0.004        /* m, that a ball may be off its place on the ground ... */
-#define STILL_UP 0.02      /* ... and over its height there (it rises as the toes bend) */
-#define SHORTEST 0.05      /* s: what is still for less as an action begins is leaving already */
+#define STILL 0.004    /* m, that a ball may be off its place on the ground ... */
+#define STILL_UP 0.02  /* ... and over its height there (it rises as the toes bend) */
+#define SLIDE 0.02     /* m: so near to its place, with the ball no higher ... */
+#define BALL_UP 0.0035 /* ... than this, ... */
+#define HEEL_UP 0.012  /* ... and the heel than this, a foot has arrived: what it still slides is taken out */
+#define SOONER 0.1     /* s, by which that may be before the contact in the clip's signals */
+#define TIPTOE 0.04    /* m: so high a heel is not meant to lie down */
+#define SHORTEST 0.05  /* s: what is still for less as an action begins is leaving already */
 #define LOOK (1.0 / 120.0) /* s between two looks */
 
 double ff_play_foot_yaw(ff_quat rotation)
 {
-    return ff_quat_heading(rotation);
+    ff_vec3 side = ff_quat_rotate(rotation, ff_v3(1.0, 0.0, 0.0));
+    return ff_atan2(-side.z, side.x);
+}
+
+ff_play_over ff_play_over_ground(const ff_body_frame *body, int foot, double ball_height, ff_quat rotation)
+{
+    ff_vec3 ball = body->offset[FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+    ff_vec3 to_heel = ff_sub3(body->heel[foot], ball);
+    double up = ball_height - body->ball_rest;
+    ff_play_over out = {.heel = up + ff_quat_rotate(rotation, to_heel).y - to_heel.y};
+    double heel = ff_max(0.0, out.heel);
+    out.toes = ff_max(0.0, up - heel);
+    out.sole = ff_max(0.0, ff_min(up, heel)) * (1.0 - ff_smooth(heel / TIPTOE));
+    return out;
 }
 
 /* Whose actions they are. */
@@ -65,13 +83,16 @@ ff_root_frame ff_play_root_at(const ff_play_set *set, uint32_t index, double tim
 typedef struct still_foot {
     ff_vec3 ball;
     double yaw;
+    ff_play_over over;
 } still_foot;
 
 static still_foot look_at(const source *of, const ff_play_action *action, int foot, double time)
 {
     ff_play_sample at;
     sample_from(of, action, time, &at);
-    return (still_foot){at.ball[foot], ff_play_foot_yaw(at.foot[foot])};
+    still_foot out = {.ball = at.ball[foot], .yaw = ff_play_foot_yaw(at.foot[foot])};
+    out.over = ff_play_over_ground(of->body, foot, out.ball.y, at.foot[foot]);
+    return out;
 }
 
 static bool is_still(still_foot now, still_foot there)
@@ -80,14 +101,48 @@ static bool is_still(still_foot now, still_foot there)
     return a * a + b * b < STILL * STILL && now.ball.y - there.ball.y < STILL_UP;
 }
 
-/* From a moment at which the foot is flat, how far the stance reaches in direction step, not beyond limit. */
+/* Does the whole foot lie on the ground, all but at its place? */
+static bool has_arrived(const source *of, still_foot now, still_foot there)
+{
+    double a = now.ball.z - there.ball.z, b = now.ball.x - there.ball.x;
+    return a * a + b * b < SLIDE * SLIDE && now.ball.y - of->body->ball_rest < BALL_UP &&
+           now.over.heel < HEEL_UP;
+}
+
+/* From a moment at which the foot stands, until when it goes on standing, not beyond limit. */
 static double reach_of_stance(const source *of, const ff_play_action *action, int foot, double time,
                               still_foot there, double limit)
 {
-    double step = limit < time ? -LOOK : LOOK;
-    while ((limit - time) * step > 0.0) {
-        double next = fabs(limit - time) < LOOK ? limit : time + step;
+    while (time < limit) {
+        double next = ff_min(time + LOOK, limit);
         if (!is_still(look_at(of, action, foot, next), there)) break;
+        time = next;
+    }
+    return time;
+}
+
+/* Since when: still, but not before its contact (low), or arrived, not before limit. */
+static double start_of_stance(const source *of, const ff_play_action *action, int foot, double time,
+                              still_foot there, double low, double limit)
+{
+    while (time > limit) {
+        double next = ff_max(time - LOOK, time > low ? low : limit);
+        still_foot now = look_at(of, action, foot, next);
+        if (!(next >= low && is_still(now, there)) && !has_arrived(of, now, there)) break;
+        time = next;
+    }
+    return time;
+}
+
+/* From when on a foot that stands in [from, to] is down until then: its ball, and, if it comes down at all, its heel. */
+static double comes_down(const source *of, const ff_play_action *action, int foot, double from, double to)
+{
+    bool on_ball = look_at(of, action, foot, to).over.heel >= HEEL_UP; /* all the time */
+    double time = to;
+    while (time > from) {
+        double next = ff_max(time - LOOK, from);
+        still_foot now = look_at(of, action, foot, next);
+        if (now.ball.y - of->body->ball_rest >= BALL_UP || (!on_ball && now.over.heel >= HEEL_UP)) break;
         time = next;
     }
     return time;
@@ -112,6 +167,22 @@ static double surely_still(const ff_play_action *action, const double plant[2], 
     return ff_clamp(0.5 * (ff_max(flat[0], low) + ff_min(flat[1], high)), low, high);
 }
 
+static double must_go_down(ff_play_over over)
+{
+    return over.toes + over.sole;
+}
+
+/* Since when a foot stands that surely does at a time of a plant that begins at low. */
+static double stance_begins(const source *of, const ff_play_action *action, int foot, double surely,
+                            still_foot there, double low)
+{
+    double limit = low;
+    uint32_t count = action->stance_count[foot];
+    if (low > 0.0) limit = ff_clamp(low - SOONER, 0.0, low);
+    if (low > 0.0 && count > 0) limit = ff_clamp(action->stance[foot][count - 1].to + SHORTEST, limit, low);
+    return start_of_stance(of, action, foot, surely, there, low, limit);
+}
+
 static void add_stance(const source *of, ff_play_action *action, int foot, const double plant[2],
                        const double flat[2])
 {
@@ -120,13 +191,21 @@ static void add_stance(const source *of, ff_play_action *action, int foot, const
     if (count == FF_PLAY_STANCES || high < low) return;
     double surely = surely_still(action, plant, flat);
     still_foot there = look_at(of, action, foot, surely);
-    double from = reach_of_stance(of, action, foot, surely, there, low);
+    double from = stance_begins(of, action, foot, surely, there, low);
     double to = reach_of_stance(of, action, foot, surely, there, high);
     if (to > action->duration - LOOK) to = action->duration; /* the plant's own times are rounded */
     if (to - from < SHORTEST && to < action->duration) return;
+    if (foot == (int)action->support && count == 0 && low <= LOOK) {
+        from = 0.0; /* the body is on it, though in its clip it may only come to rest a little later */
+        there = look_at(of, action, foot, from);
+    }
     ff_play_stance *stance = &action->stance[foot][count];
-    *stance =
-        (ff_play_stance){.from = from, .to = to, .a = there.ball.z, .b = there.ball.x, .yaw = there.yaw};
+    double down = from > 0.0 ? comes_down(of, action, foot, from, ff_min(to, action->duration)) : from;
+    *stance = (ff_play_stance){
+        .from = from, .to = to, .down = down, .a = there.ball.z, .b = there.ball.x, .yaw = there.yaw};
+    stance->over[0] = must_go_down(look_at(of, action, foot, down).over);
+    stance->over[1] = must_go_down(look_at(of, action, foot, to).over);
+    if (stance->over[0] < BALL_UP) stance->over[0] = 0.0; /* it comes down by itself */
     add_end(of, action, foot, 0, stance);
     add_end(of, action, foot, 1, stance);
     action->stance_count[foot] = count + 1;

@@ -13,8 +13,10 @@ enum { FF_PLAY_STANCES = 6 }; /* of one foot in one action: a jump or a turn has
 typedef struct ff_play_stance {
     double from,
         to;      /* s from t_0; from <= 0: it stands when the action begins, to >= duration: when it ends */
+    double down; /* s, not before from: since when it lies on the ground, as it does at the end */
     double a, b; /* m */
     double yaw;  /* rad, of the foot */
+    double over[2]; /* m, that it must be put down by (play_pose.c) as it comes down and as it leaves */
     ff_vec2 off[2],
         speed[2]; /* m, m/s: how far off its place the clip's ball is at either end, and how it moves then */
 } ff_play_stance;
@@ -64,7 +66,15 @@ void ff_play_action_sample(const ff_pack *pack, const ff_body_frame *body, const
 /* The root alone, seen from S0. */
 ff_root_frame ff_play_root_at(const ff_play_set *set, uint32_t action, double time);
 
-/* Which way a foot points. */
+/* Which way a foot points: square to its side, which tells of one on tiptoe as well. */
 double ff_play_foot_yaw(ff_quat rotation);
+
+/* How high a foot is over the ground on which it is to stand, m. */
+typedef struct ff_play_over {
+    double heel; /* below 0 under the ground */
+    double toes; /* >= 0: the ball over the heel (or over the ground, if the heel is under it) */
+    double sole; /* >= 0: the whole foot; 0 where the heel is well up, as when it rolls off its toes */
+} ff_play_over;
+ff_play_over ff_play_over_ground(const ff_body_frame *body, int foot, double ball_height, ff_quat rotation);
 
 #endif
