@@ -686,6 +686,10 @@ typedef struct ff_crowd_timings {
 } ff_crowd_timings;
 ff_crowd_timings ff_crowd_time_spent(const ff_crowd *crowd);
 
+/* Seconds of its thread's processor that a plan of footsteps takes at most, of a share of all since creation (0.5: the median),
+ * searches in vain among them; to 5 %. 0: there were none. For reports only, never part of the state. */
+double ff_crowd_plan_seconds(const ff_crowd *crowd, double share);
+
 #ifdef __GNUC__
 #pragma GCC visibility pop
 #endif

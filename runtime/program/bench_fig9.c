@@ -140,21 +140,23 @@ static double fps(const ff_walk_measures *m)
 
 static void print_rows(const frames *all)
 {
-    printf("%-6s %6s %8s %9s | %8s %9s %6s %9s %9s | %8s %9s %8s | %7s %9s\n", "method", "agents", "per m2",
-           "budget", "fps mean", "p99 ms", "paper", "CPU mean", "CPU p99", "no plan", "overlap", "deepest",
-           "speed", "nodes");
-    printf("%-6s %6s %8s %9s | %8s %9s %6s %9s %9s | %8s %9s %8s | %7s %9s\n", "", "", "", "ms", "", "",
-           "fps", "ms", "ms", "s", "/100 s", "cm", "m/s", "per plan");
+    printf("%-6s %6s %8s %9s | %8s %9s %6s %9s %9s | %8s %9s %8s | %7s %9s %13s\n", "method", "agents",
+           "per m2", "budget", "fps mean", "p99 ms", "paper", "CPU mean", "CPU p99", "no plan", "overlap",
+           "deepest", "speed", "nodes", "ms a plan:");
+    printf("%-6s %6s %8s %9s | %8s %9s %6s %9s %9s | %8s %9s %8s | %7s %9s %13s\n", "", "", "", "ms", "", "",
+           "fps", "ms", "ms", "s", "/100 s", "cm", "m/s", "per plan", "50 %, 99 %");
     for (int i = 0; i < all->count; ++i) {
         const frame_row *row = &all->row[i];
         const ff_walk_measures *m = &row->measures;
         char budget[24];
         snprintf(budget, sizeof budget, row->budget_ms > 0.0 ? "%.0f" : "300 nodes", row->budget_ms);
-        printf("%-6s %6u %8.2f %9s | %8.0f %9.2f %6s %9.2f %9.2f | %8.1f %9.3f %8.1f | %7.2f %9.0f\n",
+        printf("%-6s %6u %8.2f %9s | %8.0f %9.2f %6s %9.2f %9.2f | %8.1f %9.3f %8.1f | %7.2f %9.0f %6.3f "
+               "%6.2f\n",
                row->method, row->agents, row->density, budget, fps(m), m->frame_ms.p99,
                row->published ? row->published : "", m->work_ms.mean, m->work_ms.p99, m->no_plan, m->overlap,
                100.0 * m->deepest, m->speed_to_goal,
-               m->counts.searches > 0 ? (double)m->counts.nodes / m->counts.searches : 0.0);
+               m->counts.searches > 0 ? (double)m->counts.nodes / m->counts.searches : 0.0, m->plan_ms_median,
+               m->plan_ms_p99);
     }
 }
 
@@ -166,15 +168,17 @@ static json_t *rows_json(const frames *all)
         const ff_walk_measures *m = &row->measures;
         json_array_append_new(
             list,
-            json_pack("{s:s,s:I,s:f,s:f,s:I,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:I,s:I,s:I,s:I}",
-                      "method", row->method, "agents", (json_int_t)row->agents, "density", row->density,
-                      "budget_ms", row->budget_ms, "actions", (json_int_t)row->actions, "fps_mean", fps(m),
-                      "frame_ms_p99", m->frame_ms.p99, "frame_ms_max", m->frame_ms.most, "cpu_ms_mean",
-                      m->work_ms.mean, "cpu_ms_p99", m->work_ms.p99, "cpu_ms_max", m->work_ms.most,
-                      "plan_ms_mean", m->plan_ms_mean, "no_plan_s", m->no_plan, "overlap", m->overlap,
-                      "deepest_m", m->deepest, "speed_to_goal", m->speed_to_goal, "searches",
-                      (json_int_t)m->counts.searches, "plans", (json_int_t)m->counts.plans, "failed",
-                      (json_int_t)m->counts.failed, "nodes", (json_int_t)m->counts.nodes));
+            json_pack(
+                "{s:s,s:I,s:f,s:f,s:I,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:I,s:I,s:I,s:I}",
+                "method", row->method, "agents", (json_int_t)row->agents, "density", row->density,
+                "budget_ms", row->budget_ms, "actions", (json_int_t)row->actions, "fps_mean", fps(m),
+                "frame_ms_p99", m->frame_ms.p99, "frame_ms_max", m->frame_ms.most, "cpu_ms_mean",
+                m->work_ms.mean, "cpu_ms_p99", m->work_ms.p99, "cpu_ms_max", m->work_ms.most, "plan_ms_mean",
+                m->plan_ms_mean, "one_plan_ms_median", m->plan_ms_median, "one_plan_ms_p99", m->plan_ms_p99,
+                "no_plan_s", m->no_plan, "overlap", m->overlap, "deepest_m", m->deepest, "speed_to_goal",
+                m->speed_to_goal, "searches", (json_int_t)m->counts.searches, "plans",
+                (json_int_t)m->counts.plans, "failed", (json_int_t)m->counts.failed, "nodes",
+                (json_int_t)m->counts.nodes));
     }
     return json_pack("{s:s,s:I,s:f,s:f,s:o}", "bench", "fig9", "threads",
                      (json_int_t)all->options->common.threads, "step", STEP, "seconds", all->options->seconds,
@@ -186,13 +190,14 @@ static ff_status write_csv(const frames *all, const char *path, ff_error *error)
     ff_text text = {0};
     ff_text_add(&text, "method,agents,density,budget_ms,actions,fps_mean,frame_ms_p99,cpu_ms_mean,cpu_ms_p99,"
                        "no_plan_s,overlap,deepest_m,"
-                       "speed_to_goal\n");
+                       "speed_to_goal,one_plan_ms_median,one_plan_ms_p99\n");
     for (int i = 0; i < all->count; ++i) {
         const frame_row *row = &all->row[i];
         const ff_walk_measures *m = &row->measures;
-        ff_text_add(&text, "%s,%u,%.2f,%.0f,%u,%.1f,%.3f,%.3f,%.3f,%.2f,%.4f,%.4f,%.3f\n", row->method,
-                    row->agents, row->density, row->budget_ms, row->actions, fps(m), m->frame_ms.p99,
-                    m->work_ms.mean, m->work_ms.p99, m->no_plan, m->overlap, m->deepest, m->speed_to_goal);
+        ff_text_add(&text, "%s,%u,%.2f,%.0f,%u,%.1f,%.3f,%.3f,%.3f,%.2f,%.4f,%.4f,%.3f,%.4f,%.3f\n",
+                    row->method, row->agents, row->density, row->budget_ms, row->actions, fps(m),
+                    m->frame_ms.p99, m->work_ms.mean, m->work_ms.p99, m->no_plan, m->overlap, m->deepest,
+                    m->speed_to_goal, m->plan_ms_median, m->plan_ms_p99);
     }
     return ff_text_write(&text, path, error);
 }

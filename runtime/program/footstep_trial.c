@@ -245,6 +245,8 @@ static void finish(run *r, uint32_t steps)
     out->frame_ms = times_of(r->frame, steps);
     out->work_ms = times_of(r->work, steps);
     out->plan_ms_mean = 1e3 * ff_crowd_time_spent(r->crowd).planning / steps;
+    out->plan_ms_median = 1e3 * ff_crowd_plan_seconds(r->crowd, 0.5);
+    out->plan_ms_p99 = 1e3 * ff_crowd_plan_seconds(r->crowd, 0.99);
     for (int kind = 0; kind < FF_PAIR_KINDS; ++kind) {
         const ff_pair_contacts *pairs = &out->pairs[kind];
         out->overlap += 100.0 * pairs->seconds / out->agent_seconds;

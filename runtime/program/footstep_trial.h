@@ -44,9 +44,10 @@ typedef struct ff_walk_measures {
     ff_walk_times frame_ms; /* of a step with the poses of everybody, by the clock on the wall */
     ff_walk_times
         work_ms; /* the same in time of the processor, all threads together: other programs do not count */
-    double plan_ms_mean; /* per step */
-    double overlap;      /* pair-seconds of contact of the five cylinders per 100 agent-seconds */
-    double deepest;      /* m */
+    double plan_ms_mean;                /* per step */
+    double plan_ms_median, plan_ms_p99; /* of a plan, of the processor */
+    double overlap; /* pair-seconds of contact of the five cylinders per 100 agent-seconds */
+    double deepest; /* m */
     double body_overlap, body_deepest;     /* the same of whole bodies, if they were looked at */
     ff_pair_contacts pairs[FF_PAIR_KINDS]; /* the same by who meets whom */
     double speed_to_goal;                  /* m/s, mean over those who are not there yet */

@@ -259,6 +259,34 @@ static void plans_in_force_never_meet_and_nobody_is_without_one(void **state)
     ff_crowd_destroy(crowd);
 }
 
+static void how_long_plans_take_is_known_to_a_twentieth(void **state)
+{
+    (void)state;
+    ff_plan_times times = {{0}};
+    assert_true(ff_plan_times_share(&times, 0.5) == 0.0);
+    /* 1 to 100 ms, and three that are beyond what is told apart. */
+    for (int i = 1; i <= 100; ++i)
+        ff_plan_times_add(&times, 1e-3 * i);
+    static const double shares[] = {0.01, 0.1, 0.5, 0.9, 0.99, 1.0};
+    for (int i = 0; i < 6; ++i)
+        FF_ASSERT_NEAR(ff_plan_times_share(&times, shares[i]) / (0.1 * shares[i]), 1.0, 0.05);
+    ff_plan_times_add(&times, 0.0);
+    ff_plan_times_add(&times, -1.0);
+    ff_plan_times_add(&times, 1e9);
+    FF_ASSERT_BELOW(ff_plan_times_share(&times, 0.0), 1.1e-6);
+    FF_ASSERT_NEAR(ff_plan_times_share(&times, 1.0), 1.0, 0.1);
+
+    ff_crowd_def def = footsteps_def(AGENTS);
+    ff_crowd *crowd = crowd_of(&def);
+    ff_agent agent[AGENTS];
+    add_circle(crowd, AGENTS, 5.0, false, agent);
+    assert_true(ff_crowd_plan_seconds(crowd, 0.5) == 0.0);
+    go(crowd, 1.0);
+    assert_true(ff_crowd_plan_seconds(crowd, 0.5) > 0.0);
+    FF_ASSERT_BELOW(ff_crowd_plan_seconds(crowd, 0.5), ff_crowd_plan_seconds(crowd, 0.99) + 1e-12);
+    ff_crowd_destroy(crowd);
+}
+
 static uint64_t hash_after(uint32_t threads, bool mixed, int steps)
 {
     ff_crowd_def def = footsteps_def(AGENTS);
@@ -468,6 +496,7 @@ int main(void)
         cmocka_unit_test(an_obstacle_on_a_known_path_is_noticed_and_avoided),
         cmocka_unit_test(an_unforeseen_wall_is_noticed_at_once_and_never_walked_through),
         cmocka_unit_test(plans_in_force_never_meet_and_nobody_is_without_one),
+        cmocka_unit_test(how_long_plans_take_is_known_to_a_twentieth),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(a_crowd_on_footsteps_is_saved_and_goes_on_to_the_bit),
         cmocka_unit_test(an_agent_takes_no_more_than_sixteen_kibibytes),

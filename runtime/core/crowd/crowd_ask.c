@@ -30,6 +30,11 @@ ff_crowd_timings ff_crowd_time_spent(const ff_crowd *crowd)
     return crowd->timings;
 }
 
+double ff_crowd_plan_seconds(const ff_crowd *crowd, double share)
+{
+    return crowd->footsteps ? ff_plan_times_share(&crowd->footsteps->times, share) : 0.0;
+}
+
 uint32_t ff_crowd_agents(const ff_crowd *crowd, ff_agent *out, uint32_t capacity)
 {
     uint32_t count = 0;

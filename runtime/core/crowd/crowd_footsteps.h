@@ -18,6 +18,7 @@
 #define FF_CROWD_FOOTSTEPS_H
 
 #include "runtime/core/base/memory.h"
+#include "runtime/core/crowd/crowd_plan_times.h"
 #include "runtime/core/nav/nav_grid.h"
 #include "runtime/core/plan/plan.h"
 #include "runtime/core/play/play.h"
@@ -65,6 +66,7 @@ typedef struct ff_plan_job {
     uint32_t urgency;
     uint32_t tests, spare; /* collision tests of the search */
     double asked;
+    double seconds; /* of the processor */
 } ff_plan_job;
 enum { FF_JOB_PLAN, FF_JOB_ENTER, FF_JOB_REACT };
 
@@ -112,6 +114,7 @@ typedef struct ff_footsteps {
     uint32_t lane_count;
     ff_mover *movers; /* [max_obstacles] */
     uint32_t mover_count, unused;
+    ff_plan_times times; /* of all searches, with what they see and the checks of what they find */
 } ff_footsteps;
 
 struct ff_crowd;

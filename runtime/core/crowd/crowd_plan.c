@@ -238,6 +238,13 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
         ff_stepper_react(crowd, job->slot, &world, time, job);
 }
 
+static void timed_search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
+{
+    double begun = ff_thread_seconds();
+    search(crowd, job, lane);
+    job->seconds = ff_thread_seconds() - begun;
+}
+
 typedef struct lane_work {
     ff_crowd *crowd;
 } lane_work;
@@ -248,7 +255,7 @@ static void run_lane(void *context, uint32_t index)
     ff_crowd *crowd = ((lane_work *)context)->crowd;
     ff_footsteps *f = crowd->footsteps;
     for (uint32_t i; (i = atomic_fetch_add(&f->next_job, 1u)) < f->job_end;)
-        search(crowd, &f->jobs[i], &f->lane[index]);
+        timed_search(crowd, &f->jobs[i], &f->lane[index]);
 }
 
 /* A few at a time, until all are done or have made as many tests as a step may: so no frame is much longer than the others, and
@@ -268,8 +275,10 @@ static void search_all(ff_crowd *crowd)
             crowd->def.tasks(crowd->def.task_pool, f->lane_count, run_lane, &work);
         else
             ff_tasks_for(crowd->own_tasks, f->lane_count, 1, run_lane, &work);
-        for (; done < f->job_end; ++done)
+        for (; done < f->job_end; ++done) {
             tests += f->jobs[done].tests;
+            ff_plan_times_add(&f->times, f->jobs[done].seconds);
+        }
     }
     f->job_count = done;
 }
