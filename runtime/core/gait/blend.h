@@ -80,9 +80,9 @@ struct ff_blend_space {
     ff_pose_tree tree;
     float offsets[3 * FF_POSE_LANES]; /* of the tree */
     int32_t idle;                     /* vertex index of the idle example (its rates are zero), or -1 */
-    ff_quat rest[FF_JOINT_HIP_L];     /* trunk and arms at the start of the idle example, if there is one */
-    double
-        arm_speed[FF_ARM_JOINTS]; /* rad/s, the fastest of ff_arm_joints in captured examples; 0: unknown */
+    /* rad/s, the most that captured examples turn each joint by, left or right; huge where they do not tell */
+    double fastest[FF_JOINT_COUNT];
+    ff_quat rest[FF_JOINT_HIP_L]; /* trunk and arms at the start of the idle example, if there is one */
     double neutral[2][3];         /* per foot: forward, left, yaw of its place under a standing body */
     ff_clip_model model;
 };

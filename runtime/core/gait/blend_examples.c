@@ -5,9 +5,12 @@
 #include "runtime/core/pack/pose_stream.h"
 #include "runtime/core/pose/posture.h"
 
-#define RUN_RISE 0.006        /* m */
-#define LEAST_RUN_LOCK 0.3    /* u */
-#define LEAST_SECTION 0.02    /* of the cycle, of a run */
+#define RUN_RISE 0.006     /* m */
+#define LEAST_RUN_LOCK 0.3 /* u */
+#define LEAST_SECTION 0.02 /* of the cycle, of a run */
+#define STILL                                                                                                \
+    (30.0 * FF_DEG)   /* rad/s: a joint that is never faster is not really moved in the captures ... */
+#define ANY_SPEED 1e3 /* rad/s: ... which tell nothing of how fast it may be */
 #define IDLE_STEP_PERIOD 1.15 /* s: of steps taken where the blend is nearly idle (96 steps per minute) */
 
 static ff_vec3 vec3_of(const float v[3])
@@ -181,16 +184,26 @@ static double fastest_of(const ff_pose_store *poses, const ff_blend_vertex *vert
 }
 
 /* People have no faster side. */
-static void read_arm_speeds(ff_blend_space *space)
+static void even_out(double *left, double *right)
+{
+    *left = *right = ff_max(*left, *right);
+}
+
+/* What joints are seen to turn at; of what was derived, nobody has. */
+static void read_speeds(ff_blend_space *space)
 {
     for (uint32_t v = 0; v < space->vertex_count; ++v) {
         const ff_blend_vertex *vertex = &space->vertices[v];
         if (space->pack->examples[vertex->example].flags & FF_EXAMPLE_DERIVED) continue;
-        for (int arm = 0; arm < FF_ARM_JOINTS; ++arm) {
-            double *one = &space->arm_speed[arm], *other = &space->arm_speed[arm ^ 2];
-            *one = *other = ff_max(*one, fastest_of(&space->poses, vertex, (uint32_t)ff_arm_joints[arm]));
-        }
+        for (uint32_t j = 0; j < FF_JOINT_COUNT; ++j)
+            space->fastest[j] = ff_max(space->fastest[j], fastest_of(&space->poses, vertex, j));
     }
+    for (int j = 0; j < FF_JOINT_CLAVICLE_R - FF_JOINT_CLAVICLE_L; ++j)
+        even_out(&space->fastest[FF_JOINT_CLAVICLE_L + j], &space->fastest[FF_JOINT_CLAVICLE_R + j]);
+    for (int j = 0; j < FF_JOINT_LEG_STRIDE; ++j)
+        even_out(&space->fastest[FF_JOINT_HIP_L + j], &space->fastest[FF_JOINT_HIP_R + j]);
+    for (int j = 0; j < FF_JOINT_COUNT; ++j)
+        if (space->fastest[j] < STILL) space->fastest[j] = ANY_SPEED;
 }
 
 static double speed_of(ff_rates rates)
@@ -250,6 +263,6 @@ ff_status ff_blend_read_examples(ff_blend_space *space, ff_error *error)
             "the pack has no walking example: build it from clips with at least two strides in them");
     read_neutral(space);
     ff_status status = read_poses(space, error);
-    if (status == FF_OK) read_arm_speeds(space);
+    if (status == FF_OK) read_speeds(space);
     return status;
 }

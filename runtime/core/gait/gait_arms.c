@@ -8,7 +8,8 @@ bool ff_gait_arms_hurry(const ff_blend_space *space, const ff_gait *gait)
 {
     if (!ff_pose_offset_active(&gait->offset)) return false;
     for (int arm = 0; arm < FF_ARM_JOINTS; ++arm)
-        if (ff_pose_offset_speed(&gait->offset, arm) * gait->style.arms > NOT_FAST * space->arm_speed[arm])
+        if (ff_pose_offset_speed(&gait->offset, arm) * gait->style.arms >
+            NOT_FAST * space->fastest[ff_arm_joints[arm]])
             return true;
     return false;
 }
@@ -26,8 +27,8 @@ void ff_gait_hold_arms(const ff_blend_space *space, ff_gait *gait, const ff_curs
     if (!ff_pose_offset_active(&gait->offset)) return;
     ff_gait_arms(space, cursor, now);
     double faster = ARMS_FASTER / ff_max(gait->style.arms, 1.0); /* the style comes on top (gait_pose.c) */
-    for (int arm = 0; arm < FF_ARM_JOINTS; ++arm)
-        if (space->arm_speed[arm] > 0.0)
-            ff_pose_offset_hold(&gait->offset, arm, arms[arm], now[arm], faster * space->arm_speed[arm] * dt,
-                                dt);
+    for (int arm = 0; arm < FF_ARM_JOINTS; ++arm) {
+        double most = faster * space->fastest[ff_arm_joints[arm]] * dt;
+        ff_pose_offset_hold(&gait->offset, arm, arms[arm], now[arm], most, dt);
+    }
 }

@@ -1,6 +1,7 @@
 #include "runtime/core/gait/gait_hips.h"
 
 #include "runtime/core/gait/gait_knees.h"
+#include "runtime/core/gait/gait_toes.h"
 #include "runtime/core/gait/leg_ik.h"
 
 #define SWAY_AHEAD 0.004 /* m, of standing hips */
@@ -124,10 +125,10 @@ void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cur
     double push = (gait->hips_speed + DROP_FREQUENCY * away) * dt;
     gait->hips_speed = (gait->hips_speed - DROP_FREQUENCY * push) * decay;
     gait->hips_drop = wanted + (away + push) * decay;
-    if (!(dt > 0.0)) return;
     for (int foot = 0; foot < 2; ++foot) {
         limbs[foot].hip.y -= gait->hips_drop;
         limbs[foot].landing.y -= gait->hips_drop;
     }
-    ff_gait_ease_knees(body, gait, limbs, dt);
+    if (dt > 0.0) ff_gait_ease_knees(space, gait, limbs, dt);
+    ff_gait_bend_toes(space, gait, cursor, dt);
 }

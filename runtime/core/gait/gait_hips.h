@@ -28,7 +28,12 @@ void ff_gait_lower_hips(const ff_blend_space *space, ff_gait *gait, const ff_cur
 void ff_gait_idle_pose(const ff_blend_space *space, double idle_time, ff_vec2 position, double heading,
                        ff_vec3 *hips, ff_quat *rotations);
 
+#define FF_MOST_RAISE (60.0 * FF_DEG) /* of a heel, for a planted foot to be in reach */
+
 /* Where a foot is to be, turned as it is. In gait_pose.c. */
 ff_leg_target ff_gait_leg_target(const ff_gait_foot *state, ff_quat turn);
+
+/* m, of the tip of the toes over its height in rest; the same. */
+double ff_gait_toe_clearance(const ff_gait_foot *state);
 
 #endif

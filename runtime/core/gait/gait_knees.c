@@ -6,13 +6,14 @@
 
 #define KNEE_QUICK (24000.0 * FF_DEG) /* rad/s2 */
 #define KNEE_LANDS (150.0 * FF_DEG)   /* rad/s */
-#define STRIKES (5.0 * FF_DEG)        /* pitch of a foot whose heel comes down first */
+#define STRIKES (9.0 * FF_DEG)        /* pitch of a foot whose heel comes down first */
 #define LANDING_FROM 0.5              /* of the swing, from where on its end is looked at */
 #define GIVE_ENDS 0.5                 /* of the swing */
 #define MOST_GIVE 0.02                /* m */
 #define MOST_LIFT 0.012               /* m, of hips within a step */
 #define LEAST_BEND (8.0 * FF_DEG)     /* of a planted knee that takes its time to stop */
 #define LEAST_RAISED 0.002            /* rad: less is rounding */
+#define QUICKEST_HEEL 1.25            /* times the fastest ankle, or toes, in the database */
 #define SOLE 0.003                    /* m, by which one yields */
 
 double ff_gait_time_left(const ff_gait_foot *state)
@@ -62,14 +63,22 @@ typedef struct leg_now {
     ff_vec3 leg; /* from ankle to hip */
     double far, distance, bend;
     double raised; /* rad, of the heel, to be in reach */
+    double lever;  /* m, that the ankle comes nearer to the hip for every radian that the heel is raised */
 } leg_now;
 
 static leg_now leg_as_is(const ff_body_frame *body, const ff_gait_foot *state, int foot, const ff_limb *limb)
 {
     double thigh = body->thigh[foot], shank = body->shank[foot];
     ff_leg_target target = ff_gait_leg_target(state, limb->turn);
-    leg_now now = {.leg = ff_sub3(limb->hip, ff_leg_ankle(body, foot, &target, limb->hip, &target.turn))};
+    ff_vec3 ankle = ff_leg_ankle(body, foot, &target, limb->hip, &target.turn);
+    leg_now now = {.leg = ff_sub3(limb->hip, ankle)};
     now.far = ff_length3(now.leg);
+    /* Raised, the ankle goes on ahead as far as it is over the ball, and up as far as it is behind it. */
+    double over = ankle.y - state->now.height;
+    double behind =
+        (state->now.b - ankle.x) * ff_sin(state->now.yaw) + (state->now.a - ankle.z) * ff_cos(state->now.yaw);
+    double ahead = now.leg.x * ff_sin(state->now.yaw) + now.leg.z * ff_cos(state->now.yaw);
+    now.lever = (over * ahead + behind * now.leg.y) / now.far;
     now.distance = ff_leg_soft_reach(now.far, thigh + shank);
     now.bend = bend_at(now.distance, thigh, shank);
     double raised = ff_quat_angle(ff_quat_mul(ff_quat_conj(limb->turn), target.turn));
@@ -94,8 +103,10 @@ static double per_height(const leg_now *now)
 /* Between which heights, from here, hips must be for the knee of a planted leg neither to stop nor to start within a frame. A leg at
  * its reach, whose heel is raised, is not longer for hips that are higher: ease_planted sees to it. */
 static void narrow_lift(const ff_body_frame *body, const ff_gait_foot *state, int foot, const leg_now *now,
-                        double dt, double range[2])
+                        double most_tilt, double dt, double range[2])
 {
+    double quick = now->raised - state->pitch - state->tilt - most_tilt;
+    if (now->raised > 0.0 && quick > 0.0) range[1] = ff_min(range[1], -quick * now->lever / per_height(now));
     double next = state->knee + state->knee_speed * dt, most = KNEE_QUICK * dt * dt;
     if (now->bend > next + most && now->raised <= 0.0)
         range[0] = ff_max(range[0], longer_by(body, foot, now, next + most) / per_height(now));
@@ -103,7 +114,8 @@ static void narrow_lift(const ff_body_frame *body, const ff_gait_foot *state, in
         range[1] = ff_min(range[1], longer_by(body, foot, now, next - most) / per_height(now));
 }
 
-static double lift_for_knees(const ff_body_frame *body, ff_gait *gait, const ff_limb limbs[2], double dt)
+static double lift_for_knees(const ff_body_frame *body, ff_gait *gait, const ff_limb limbs[2],
+                             double most_tilt, double dt)
 {
     double range[2] = {-1.0, 1.0};
     if (gait->blend.way == FF_RUNNING) return 0.0; /* captured runs are quicker than that */
@@ -112,7 +124,7 @@ static double lift_for_knees(const ff_body_frame *body, ff_gait *gait, const ff_
         if (!state->planted || !(state->knee > 0.0) || !minds_knee(gait, foot)) continue;
         state->give = 0.0;
         leg_now now = leg_as_is(body, state, foot, &limbs[foot]);
-        narrow_lift(body, state, foot, &now, dt, range);
+        narrow_lift(body, state, foot, &now, most_tilt, dt, range);
     }
     double lift = range[0] > range[1] ? 0.5 * (range[0] + range[1]) : ff_clamp(0.0, range[0], range[1]);
     return ff_clamp(lift, -MOST_LIFT, MOST_LIFT);
@@ -152,24 +164,51 @@ static void ease_knee(const ff_body_frame *body, ff_gait_foot *state, int foot, 
         ease_flying(body, state, foot, limb, dt, &now);
     state->knee_speed = state->knee > 0.0 ? (now.bend - state->knee) / dt : 0.0;
     state->knee = now.bend;
+    state->tilt = now.raised - state->pitch;
 }
 
-static void forget_knee(ff_gait_foot *state)
+/* But for what is still out of reach. */
+static double tilt_of_gait(const ff_gait_foot *state, const ff_limb *limb)
 {
+    return ff_gait_leg_target(state, limb->turn).raise - state->pitch;
+}
+
+static void forget_knee(ff_gait_foot *state, const ff_limb *limb)
+{
+    state->tilt = tilt_of_gait(state, limb);
     state->knee = state->knee_speed = state->give = 0.0;
     if (state->planted) state->raised = 0.0;
 }
 
-void ff_gait_ease_knees(const ff_body_frame *body, ff_gait *gait, ff_limb limbs[2], double dt)
+/* What is in the air need not be in reach at once, or at all: its heel is raised until the foot points down by most. */
+static void limit_raise(const ff_gait *gait, ff_gait_foot *state, double tilt, double most)
 {
-    double lift = lift_for_knees(body, gait, limbs, dt);
+    bool runs = gait->blend.way == FF_RUNNING;
+    state->most_raise = runs ? FF_MOST_RAISE : ff_clamp(most - tilt, 0.0, FF_MOST_RAISE);
+}
+
+/* rad, by which a foot may be tipped further in this step. */
+static double tilt_in_step(const ff_blend_space *space, double dt)
+{
+    return QUICKEST_HEEL * ff_min(space->fastest[FF_JOINT_ANKLE_L], space->fastest[FF_JOINT_BALL_L]) * dt;
+}
+
+void ff_gait_ease_knees(const ff_blend_space *space, ff_gait *gait, ff_limb limbs[2], double dt)
+{
+    const ff_body_frame *body = &space->body;
+    double most_tilt = tilt_in_step(space, dt), lift = lift_for_knees(body, gait, limbs, most_tilt, dt);
     gait->hips_drop -= lift;
     for (int foot = 0; foot < 2; ++foot) {
+        ff_gait_foot *state = &gait->foot[foot];
+        double most = state->tilt + most_tilt;
         limbs[foot].hip.y += lift;
         limbs[foot].landing.y += lift;
+        limit_raise(gait, state, tilt_of_gait(state, &limbs[foot]), most);
         if (minds_knee(gait, foot))
-            ease_knee(body, &gait->foot[foot], foot, &limbs[foot], dt);
+            ease_knee(body, state, foot, &limbs[foot], dt);
         else
-            forget_knee(&gait->foot[foot]);
+            forget_knee(state, &limbs[foot]);
+        if (state->planted)
+            limit_raise(gait, state, state->tilt, most); /* should a switch lift it right now */
     }
 }

@@ -18,6 +18,6 @@ double ff_gait_time_left(const ff_gait_foot *state);
 
 /* One step of what is remembered of knees, of the legs' give, of raised heels; hips_drop and limbs move by what planted knees
  * need so as not to stop or start within a frame. */
-void ff_gait_ease_knees(const ff_body_frame *body, ff_gait *gait, ff_limb limbs[2], double dt);
+void ff_gait_ease_knees(const ff_blend_space *space, ff_gait *gait, ff_limb limbs[2], double dt);
 
 #endif

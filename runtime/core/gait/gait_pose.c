@@ -6,7 +6,7 @@
 
 #define BREATH (0.7 * FF_DEG)
 #define LOOK (5.0 * FF_DEG)
-#define MOST_RAISE (60.0 * FF_DEG) /* of a heel, for a planted foot to be in reach */
+
 #define TOE_CLEARANCE 0.016 /* m, over the rest height of the toe tip (gait facts: people 1.4 to 2.3 cm) */
 
 /* Local rotations of everything but the hips: of the motion, with what is left of the one before, and while standing of the
@@ -86,7 +86,6 @@ static double left_of_change(const ff_pose_offset *offset)
     0.3 /* ... and a share of what it rolls by then: heels would stop in the middle of rolling */
 #define HEEL_SINKS                                                                                           \
     0.6 /* of the swing, in which a heel that was raised to be in reach comes back to the gait's */
-#define TOES_RELAX 0.42 /* of the swing, in which toes that the floor has bent come back to the clip's */
 
 /* A heel that was raised for its foot to be in reach, as it lifted, stays up until the gait has it there, and sinks again. */
 static double raise_left(const ff_gait_foot *state)
@@ -97,22 +96,27 @@ static double raise_left(const ff_gait_foot *state)
     return ff_max(state->raised - less, 0.0) * (1.0 - ff_smooth(state->progress / HEEL_SINKS));
 }
 
+double ff_gait_toe_clearance(const ff_gait_foot *state)
+{
+    if (state->planted) return 0.0;
+    double arc = 4.0 * state->progress * (1.0 - state->progress);
+    double given =
+        state->progress < 0.5 ? ff_max(state->give, 0.0) : 0.0; /* by which the foot is lower; none at 0.5 */
+    return (TOE_CLEARANCE + given) * arc;
+}
+
 ff_leg_target ff_gait_leg_target(const ff_gait_foot *state, ff_quat turn)
 {
-    double arc = state->planted ? 0.0 : 4.0 * state->progress * (1.0 - state->progress);
     double swing = state->planted ? 0.0 : state->progress;
     double round = ff_max(ff_smooth(-state->pitch / ROLLS), ff_min(ff_min(swing, 1.0 - swing) / FLIES, 1.0));
-    /* A foot that rises quickly is off the floor before its toes have come back from where that has bent them. */
-    double bent = state->planted ? 0.0 : 1.0 - ff_smooth(swing / TOES_RELAX);
-    double given = swing < 0.5 ? ff_max(state->give, 0.0) : 0.0; /* by which the foot is lower; none at 0.5 */
     return (ff_leg_target){.ball = state->now,
                            .turn = turn,
-                           .clearance = (TOE_CLEARANCE + given) * arc,
-                           .most_raise = MOST_RAISE,
+                           .clearance = ff_gait_toe_clearance(state),
+                           .most_raise = state->planted ? FF_MOST_RAISE : state->most_raise,
                            .grip = 1.0,
                            .swing = swing,
                            .round = round,
-                           .bent = bent,
+                           .toes_more = state->toes_more,
                            .give = state->give,
                            .raise = raise_left(state)};
 }

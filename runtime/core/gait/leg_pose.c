@@ -55,24 +55,26 @@ static ff_quat heel_in_reach(const ff_body_frame *body, ff_foothold ball, int fo
 }
 
 #define MOST_BEND (80.0 * FF_DEG)
+#define LEAST_BEND 1e-4 /* rad: less is rounding */
+
+static ff_quat bend_up(ff_quat toes, double angle)
+{
+    return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -angle), toes);
+}
 
 /* Toes bend up where the floor is in their way: at push-off, and in mid swing to keep clear of it. */
 static ff_quat toes_on_floor(const ff_body_frame *body, const ff_leg_target *target, int foot,
                              ff_quat foot_turn, ff_quat toes)
 {
+    if (fabs(target->toes_more) > LEAST_BEND) toes = bend_up(toes, target->toes_more);
     ff_vec3 tip = ff_quat_rotate(foot_turn, ff_quat_rotate(toes, body->toe[foot]));
     ff_foothold ball = target->ball;
     double least = body->ball_rest + body->toe[foot].y + target->clearance - ball.height;
-    if (tip.y >= least && target->bent <= 0.0) return toes;
+    if (tip.y >= least) return toes;
     double ahead = tip.z * ff_cos(ball.yaw) + tip.x * ff_sin(ball.yaw), now = ff_atan2(tip.y, ahead);
-    double length = sqrt(ahead * ahead + tip.y * tip.y), up = 0.0;
-    if (tip.y < least) up = 0.5 * FF_PI - ff_acos(least / ff_max(length, 1e-6)) - now;
-    if (target->bent > 0.0) {
-        double own = -2.0 * ff_atan2(toes.x, toes.w), flat = ff_atan2(body->toe[foot].y, body->toe[foot].z);
-        up = ff_max(up, ff_lerp(ff_min(own, 0.0), own + flat - now, target->bent) - own);
-    }
-    up = ff_clamp(up, 0.0, MOST_BEND);
-    return ff_quat_mul(ff_quat_axis(ff_v3(1.0, 0.0, 0.0), -up), toes);
+    double length = sqrt(ahead * ahead + tip.y * tip.y);
+    double up = 0.5 * FF_PI - ff_acos(least / ff_max(length, 1e-6)) - now;
+    return bend_up(toes, ff_clamp(up, 0.0, MOST_BEND));
 }
 
 /* The same joint of both legs. */

@@ -19,11 +19,9 @@ typedef struct ff_leg_target {
     double most_raise; /* rad, that the heel may be lifted by for the ankle to be in reach */
     /* 1: planted, out of reach it lifts its heel. 0: in the air, out of reach it is not quite reached. */
     double grip;
-    double swing; /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
-    double round; /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
-    /* 0 to 1: toes are bent up at least this much of the way from the motion's bend, or none, to that of toes flat on the
-     * floor. */
-    double bent;
+    double swing;     /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
+    double round;     /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
+    double toes_more; /* rad, by which toes are bent up, other than by the floor */
     double
         give; /* m, by which the leg is longer than to the foot's place, or, of one that stands, than its reach */
     double raise; /* rad, by which the heel is lifted in any case */
