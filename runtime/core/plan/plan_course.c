@@ -212,10 +212,9 @@ static bool bodies_touch(ff_sight *sight, ff_course *c, const encounter *e, ff_m
     return false;
 }
 
-/* Where one action is in somebody's way the next one mostly is as well: are the same two colliders in the same place? */
-static bool meets_again(const ff_sight *sight, ff_course *c)
+/* Do the same two colliders meet at the same moment on this course as well? */
+static bool meets_again(const ff_sight *sight, const ff_course *c, const ff_meeting *met)
 {
-    const ff_meeting *met = &c->stance->met;
     int32_t k = met->knot - c->stance->knot;
     if (met->who >= sight->count || k < 0 || k + 1 >= (int32_t)c->total) return false;
     const ff_sight_track *seen = &sight->seen[met->who];
@@ -227,13 +226,33 @@ static bool meets_again(const ff_sight *sight, ff_course *c)
     return ff_colliders_hit(met->touch, x0, x1, y0, y1, seen->a, seen->b, &sight->limits);
 }
 
-/* Keeps a meeting, to look at whom it is with first from now on. */
-static void remember(ff_sight *sight, ff_stance *st, uint32_t place, const ff_meeting *met)
+/* Puts a meeting before the others of a list, of which the last leaves. */
+static void put_first(ff_meeting list[FF_MEETINGS], ff_meeting met, uint32_t last)
+{
+    for (uint32_t i = last; i > 0; --i)
+        list[i] = list[i - 1];
+    list[0] = met;
+}
+
+/* Where one action is in somebody's way the next one mostly is as well: is one of the last meetings one again? */
+static bool meets_as_before(const ff_sight *sight, const ff_course *c, ff_stance *st)
+{
+    for (uint32_t i = 0; i < FF_MEETINGS; ++i)
+        if (meets_again(sight, c, &st->met[i])) {
+            put_first(st->met, st->met[i], i);
+            return true;
+        }
+    return false;
+}
+
+/* Keeps a meeting, and looks at whom it was with first from now on. */
+static void remember(ff_sight *sight, ff_stance *st, uint32_t place, ff_meeting met)
 {
     uint8_t who = st->near[place];
     st->near[place] = st->near[0];
     st->near[0] = who;
-    st->met = sight->met = *met;
+    put_first(st->met, met, FF_MEETINGS - 1);
+    put_first(sight->met, met, FF_MEETINGS - 1);
 }
 
 /* Is somebody of the near ones met? Roots first, all of them: they tell soonest, and of most. */
@@ -244,18 +263,18 @@ bool ff_course_meets(ff_sight *sight, ff_course *c, ff_stance *st)
     ff_meeting met;
     bool touch;
     if (c->total < 2) return false;
-    if (meets_again(sight, c)) return true;
+    if (meets_as_before(sight, c, st)) return true;
     for (uint32_t i = 0; i < st->near_count; ++i) {
         if (!comes_near(sight, c, st->near[i], &list[count], &touch, &met)) continue;
         if (touch) {
-            remember(sight, st, i, &met);
+            remember(sight, st, i, met);
             return true;
         }
         list[count++].place = i;
     }
     for (uint32_t i = 0; i < count; ++i)
         if (bodies_touch(sight, c, &list[i], &met)) {
-            remember(sight, st, list[i].place, &met);
+            remember(sight, st, list[i].place, met);
             return true;
         }
     return false;

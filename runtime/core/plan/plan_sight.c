@@ -206,7 +206,8 @@ void ff_sight_open(const ff_action_set *set, const ff_plan_world *world, const f
     out->cost = (float)options->proximity_cost;
     out->cost_within = (float)options->proximity;
     out->count = out->mover_count = out->shape_count = 0;
-    out->met = (ff_meeting){.who = FF_SIGHT_MAX};
+    for (int i = 0; i < FF_MEETINGS; ++i)
+        out->met[i] = (ff_meeting){.who = FF_SIGHT_MAX};
     see_tracks(out, world, options);
     find_rooms(out);
     see_movers(out, world);

@@ -53,6 +53,7 @@ typedef struct ff_meeting {
     ff_touch touch;
     int32_t knot;
 } ff_meeting;
+enum { FF_MEETINGS = 3 };
 
 typedef struct ff_sight {
     const ff_action_set *set;
@@ -70,7 +71,7 @@ typedef struct ff_sight {
     ff_sight_rooms rooms[FF_SIGHT_CHUNKS];
     ff_sight_path path[FF_SIGHT_MAX]; /* of those that have been come near to */
     bool pathed[FF_SIGHT_MAX];
-    ff_meeting met; /* the last one that was found */
+    ff_meeting met[FF_MEETINGS]; /* the last ones that were found, the last first */
     ff_sight_mover mover[FF_SIGHT_MOVING_MAX];
     ff_solid shape[FF_SIGHT_MAX];
     float cost, cost_within; /* proximity */
@@ -103,7 +104,7 @@ typedef struct ff_stance {
     uint32_t near_count, mover_count;
     uint8_t near[FF_SIGHT_MAX], mover[FF_SIGHT_MOVING_MAX];
     bool solids;
-    ff_meeting met; /* the last one of a successor; before there is one, of the search */
+    ff_meeting met[FF_MEETINGS]; /* the last ones of successors; before there are any, of the search */
 } ff_stance;
 
 /* Fill in everything after `hold`; the heading is the one that the action began with. */

@@ -135,7 +135,7 @@ void ff_stance_begin(const ff_sight *sight, float begin_cosine, float begin_sine
     for (uint32_t i = 0; i < sight->mover_count; ++i)
         if (mover_near(&sight->mover[i], st->knot, last, ra, rb, reach))
             st->mover[st->mover_count++] = (uint8_t)i;
-    st->met = sight->met;
+    memcpy(st->met, sight->met, sizeof st->met);
     ff_vec2 root = ff_add2(sight->origin, ff_v2((double)ra, (double)rb));
     st->solids = sight->shape_count > 0 || ff_solids_near(sight->solids, root, (double)reach);
 }
