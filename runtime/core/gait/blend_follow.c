@@ -73,7 +73,7 @@ void ff_blend_follow(const ff_blend_space *space, const ff_blend *wanted, double
     weighing all;
     uint32_t way = wanted->way;
     double change = weigh_both(blend, wanted, &all);
-    if (blend->way != way || way != FF_BLENDING || change <= most) {
+    if (blend->way != way || way == FF_SEMI_PROCEDURAL || change <= most) {
         *blend = *wanted;
         return;
     }

@@ -9,11 +9,12 @@
 
 #define RATE_SMOOTHING                                                                                       \
     0.10                  /* s: the blend follows the root's rates with this lag, the feet take up the rest */
-#define WEIGHT_SPEED 10.0 /* 1/s, of all weights of the blend together: 0.2 s from one to quite another */
-#define HARDLY_MOVES 0.25 /* m/s, turning counted as in the blend space */
-#define STAND_TIME 0.35   /* s from the walking to the standing pose and back */
-#define SETTLED 0.8       /* of the way to the standing pose, from where on a step may begin */
-#define START_SPEED 0.12  /* m/s and rad/s above which a standing body begins to step ... */
+#define WEIGHT_SPEED 10.0 /* 1/s, of all weights of the blend together: 0.2 s from one to quite another ... */
+#define RUN_WEIGHT_SPEED 20.0 /* ... and of runs, which are alike */
+#define HARDLY_MOVES 0.25     /* m/s, turning counted as in the blend space */
+#define STAND_TIME 0.35       /* s from the walking to the standing pose and back */
+#define SETTLED 0.8           /* of the way to the standing pose, from where on a step may begin */
+#define START_SPEED 0.12      /* m/s and rad/s above which a standing body begins to step ... */
 #define START_TURN 0.35
 #define STOP_SPEED 0.08 /* ... and below both of which a stepping one comes to a stand */
 #define STOP_TURN 0.20
@@ -265,6 +266,7 @@ static ff_rates blend_rates(ff_rates rates)
 static double weight_change(const ff_gait *gait, double dt)
 {
     bool ran = (double)gait->offset.time[0] > FF_POSE_OFFSET_TIME + 0.01;
+    if (gait->blend.way == FF_RUNNING) return RUN_WEIGHT_SPEED * dt;
     bool free = gait->stand >= 1.0 || gait->wanted == FF_RUNNING || ran;
     return free ? FF_BLEND_CHANGE_MOST : WEIGHT_SPEED * dt;
 }
@@ -279,8 +281,10 @@ static void advance_phase(const ff_blend_space *space, ff_gait *gait, ff_foot_sc
     gait->phase = ff_phase_advance(space, &gait->blend, gait->phase, scene->dt * gait->pace);
     scene->phase = gait->phase;
     scene->tempo = gait->pace;
-    scene->goal_tempo = goal;
-    scene->delay = PACE_TIME * (1.0 - gait->pace / goal);
+    /* The goal jumps as a foot that was left behind lifts. A runner's other foot is nearly down by then, and would be led to
+     * where it lands a little later within a frame: for runs, which begin at full pace, the present one is taken. */
+    scene->goal_tempo = gait->blend.way == FF_RUNNING ? gait->pace : goal;
+    scene->delay = PACE_TIME * (1.0 - gait->pace / scene->goal_tempo);
 }
 
 static void change_mode(const ff_foot_scene *scene, ff_gait *gait)
