@@ -217,6 +217,41 @@ static void who_stands_moves_but_not_the_feet(void **state)
     assert_true(moved > 0.003); /* nobody stands like a post */
 }
 
+/* A captured stop may end while a foot still slides, so that no stance reaches the end: it stays where it then is. */
+static void who_stops_on_a_foot_that_slides_stands_where_it_is(void **state)
+{
+    const play_world *w = world_of(state);
+    int stops = 0;
+    for (uint32_t i = 0; i < w->pack->action_count && stops < 20; ++i) {
+        const ff_pack_action *action = &w->pack->actions[i];
+        if (!(action->flags & FF_ACTION_TO_STANDING) || !play_may_follow(action)) continue;
+        ff_play_action saved = w->set->actions[i];
+        for (int foot = 0; foot < 2; ++foot) {
+            ff_play play;
+            ff_play_order order = {.action = w->stand, .pace = 1.0};
+            ff_play_init(w->set, &play, &order, 0.0, 3.0);
+            ff_play_foot stood = play.step[0].foot[action->support];
+            order = (ff_play_order){i, 0, 0.5, 1.0, {stood.a, stood.b}, play.step[0].heading};
+            w->set->actions[i].stance_count[foot] = 0;
+            ff_play_next(w->set, &play, &order);
+            ff_play_advance(w->set, &play, order.start);
+            double end = play.step[0].end;
+            play_frame before = play_look(w, &play, end - 1e-4);
+            for (double time = end; time < end + 1.0; time += 0.1) {
+                ff_play_advance(w->set, &play, time);
+                play_frame now = play_look(w, &play, time);
+                ff_vec3 moved = ff_sub3(play_ball(&now, foot), play_ball(&before, foot));
+                FF_ASSERT_BELOW(ff_length2(ff_plane(moved)), 0.003);
+                FF_ASSERT_NEAR(play_ball(&now, foot).y, w->space->body.ball_rest,
+                               time < end + 0.3 ? 0.03 : 1e-3);
+            }
+            w->set->actions[i] = saved;
+        }
+        ++stops;
+    }
+    assert_true(stops > 3);
+}
+
 /* A copy played in one go and one played frame by frame are the same to the bit. */
 static void the_pose_depends_on_the_time_alone(void **state)
 {
@@ -293,6 +328,7 @@ int main(void)
         cmocka_unit_test(every_planned_print_is_stood_on_where_and_when_the_plan_says),
         cmocka_unit_test(feet_that_stand_do_not_move_and_joins_do_not_show),
         cmocka_unit_test(who_stands_moves_but_not_the_feet),
+        cmocka_unit_test(who_stops_on_a_foot_that_slides_stands_where_it_is),
         cmocka_unit_test(the_pose_depends_on_the_time_alone),
         cmocka_unit_test(a_step_can_be_broken_off_without_a_jump),
     };

@@ -46,12 +46,25 @@ static ff_play_step action_at(const ff_play_set *set, const ff_play_order *order
                           .action = order->action};
 }
 
+/* A foot that is put down where it is. */
+static ff_play_foot foot_of(const ff_play_targets *at, int foot)
+{
+    return (ff_play_foot){at->ball[foot].z, at->ball[foot].x, ff_play_foot_yaw(at->foot[foot]), 1, 0};
+}
+
 static void stand_next(const ff_play_set *set, ff_play *play)
 {
     const ff_play_step *now = &play->step[0];
     ff_play_foot feet[2];
     ff_play_feet_after(set, now, feet);
     ff_root_frame root = root_after(set, now);
+    if (!feet[0].planted ||
+        !feet[1].planted) { /* a captured stop may end on a foot that still slides: there it stays */
+        ff_play_targets at;
+        ff_play_targets_at(set, play, now->end, &at);
+        for (int foot = 0; foot < 2; ++foot)
+            if (!feet[foot].planted) feet[foot] = foot_of(&at, foot);
+    }
     play->step[1] = stand_at(&root, feet, now->end, now->action == FF_PLAY_STAND ? now->last : now->action);
 }
 
@@ -89,7 +102,8 @@ void ff_play_next(const ff_play_set *set, ff_play *play, const ff_play_order *or
 
 /* ------------------------------------------------------------------------------------------------- joins */
 
-#define LATER (1.0 / 240.0) /* s, over which speeds are taken */
+#define LATER (1.0 / 240.0)       /* s, over which speeds are taken */
+#define MOST_RUSH (20.0 * FF_DEG) /* that their speed at a join carries toes on */
 
 /* Seen from the root of another motion at the same moment, as pose offsets are. Feet are turned by the joint of the ankle,
  * taken from the root's heading. */
@@ -119,6 +133,19 @@ static double until_landing(const ff_play_set *set, const ff_play_step *step, in
     return FF_POSE_OFFSET_TIME;
 }
 
+/* Toes turn by up to 2,000 degrees/s as a foot pushes off; where the next action's do not, the difference would carry them on by 90
+ * degrees before it fades. */
+static void limit_rush(ff_pose_offset *offset)
+{
+    const double most = MOST_RUSH / (FF_POSE_OFFSET_TIME * 4.0 / 27.0); /* rad/s; the cubic's own peak */
+    for (int foot = 0; foot < 2; ++foot) {
+        float *speed = offset->turn[1][FF_JOINT_BALL_L + foot * FF_JOINT_LEG_STRIDE];
+        double is = ff_length3(ff_v3((double)speed[0], (double)speed[1], (double)speed[2]));
+        for (int k = 0; k < 3 && is > most; ++k)
+            speed[k] = (float)((double)speed[k] * most / is);
+    }
+}
+
 void ff_play_join(const ff_play_set *set, ff_play *play, const ff_play_targets shown[2], double later,
                   double time)
 {
@@ -137,6 +164,7 @@ void ff_play_join(const ff_play_set *set, ff_play *play, const ff_play_targets s
         change.stands[foot] = shown[0].planted[foot] && raw[0].planted[foot];
     }
     ff_pose_offset_begin(&play->offset, &change);
+    limit_rush(&play->offset);
     play->joined = time;
 }
 
@@ -173,8 +201,7 @@ static ff_play_step freeze(const ff_play_targets *shown, double time)
     ff_root_frame root = {shown->root, shown->heading};
     ff_play_foot feet[2];
     for (int foot = 0; foot < 2; ++foot)
-        feet[foot] = (ff_play_foot){shown->ball[foot].z, shown->ball[foot].x,
-                                    ff_play_foot_yaw(shown->foot[foot]), 1, 0};
+        feet[foot] = foot_of(shown, foot);
     return stand_at(&root, feet, time, FF_PLAY_STAND);
 }
 

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #define GRIP 0.12                  /* s, in which a foot lets go of the ground and takes hold of it */
+#define CLEAR 0.018                /* m, over the ground, of a foot in the air ... */
+#define RISES 0.06                 /* ... once so many s have passed since it left, and so many are left */
 #define FOOT 0.1                   /* m, more than any foot is over the ground on which it stands */
 #define RAISE (25.0 * FF_DEG)      /* a heel may be raised so far before the hips come down for it */
 #define MOST_RAISE (35.0 * FF_DEG) /* and so far at all */
@@ -154,6 +156,18 @@ static double put_down_most(const ff_play_action *action, int foot, uint32_t nex
     return ff_max(most, to->over[0] * near * near * (2.0 - near));
 }
 
+/* m: in some clips feet glide to their places, flat on the ground, or scrape along it with the toes: one in the air is held over it,
+ * and comes down at its time. */
+static double clearance(const ff_play_action *action, int foot, uint32_t next, bool left, double local)
+{
+    const ff_play_stance *stance = action->stance[foot];
+    double up = CLEAR;
+    if (left) up *= ff_smooth((local - stance[next - 1].to) / RISES);
+    if (next == action->stance_count[foot]) return up;
+    double near = ff_clamp(1.0 - (stance[next].from - local) / RISES, 0.0, 1.0);
+    return up * (1.0 - near * near * (2.0 - near));
+}
+
 /* A foot at local time: its place if it stands, else the clip's way, led from where it stood to where it will. */
 static void place_foot(const ff_body_frame *body, const ff_play_step *step, const ff_play_action *action,
                        int foot, double local, ff_play_targets *out)
@@ -179,6 +193,9 @@ static void place_foot(const ff_body_frame *body, const ff_play_step *step, cons
     }
     out->foot[foot] = ff_quat_mul(ff_quat_yaw(from.lead.yaw), out->foot[foot]);
     put_down(body, foot, put_down_most(action, foot, next, left, local), out);
+    if (!out->planted[foot] && foot != (int)action->support)
+        out->ball[foot].y =
+            ff_max(out->ball[foot].y, body->ball_rest + clearance(action, foot, next, left, local));
 }
 
 /* ------------------------------------------------------------------------------------------- actions */

@@ -35,6 +35,10 @@ typedef struct ff_play_action {
 /* One action of a pack, whose body is given. */
 void ff_play_action_make(const ff_pack *pack, const ff_body_frame *body, uint32_t index, ff_play_action *out);
 
+/* When and where its feet stand (play_stance.c), all else of action given. */
+void ff_play_find_stances(const ff_pack *pack, const ff_body_frame *body, const ff_pack_action *record,
+                          ff_play_action *action);
+
 typedef struct ff_play_set {
     const ff_pack *pack;
     const ff_blend_space *space; /* for standing, and the skeleton */
