@@ -29,8 +29,10 @@ static float from_a_walk(const ff_guide *guide, const ff_action_set *set, ff_vec
     for (uint32_t i = 0; guide->reach && i < set->count; ++i) {
         const ff_set_action *a = &set->actions[i];
         if (a->kind != FF_CLASS_WALK || (a->flags & FF_SET_REACTIVE)) continue;
-        float cost =
-            ff_guide_reach(guide, (float)to.a, (float)to.b, distance, (float)along.a, (float)along.b, a);
+        float beyond;
+        const uint16_t *cell = ff_guide_cell(guide, (float)to.a, (float)to.b, distance, (float)along.a,
+                                             (float)along.b, a, &beyond);
+        float cost = guide->unit * (float)*cell + beyond;
         least = cost < least ? cost : least;
     }
     return least < INFINITY ? least - set->stop_cost : 0.0f;

@@ -37,15 +37,24 @@ static inline bool ff_guide_reached(const ff_guide *guide, const float root[2])
     return a * a + b * b <= guide->radius * guide->radius;
 }
 
-/* From the table of the last action, to a goal (da, db) away; past the table's edge, from there straight on. */
-static inline float ff_guide_reach(const ff_guide *guide, float da, float db, float distance, float cosine,
-                                   float sine, const ff_set_action *last)
+/* What the guess at what is left to a place stands on. Its cell of a reach table, of which there are many, is fetched while other places are
+ * asked for: to wait for it took a tenth of a search. */
+typedef struct ff_guide_look {
+    const uint16_t *cell; /* or NULL: no table */
+    float beyond;         /* J/kg past the table's edge */
+    float least;          /* J/kg by the straight line */
+} ff_guide_look;
+
+/* The cell of the table of the last action for a goal (da, db) away; past the table's edge, from there straight on. */
+static inline const uint16_t *ff_guide_cell(const ff_guide *guide, float da, float db, float distance,
+                                            float cosine, float sine, const ff_set_action *last,
+                                            float *beyond)
 {
     enum { MIDDLE = FF_REACH_CELLS / 2 };
     const float half = (float)(MIDDLE - 1) * FF_REACH_CELL; /* whatever cell this rounds to */
-    float beyond = 0.0f;
+    *beyond = 0.0f;
     if (distance > half) {
-        beyond = (distance - half) * guide->rate;
+        *beyond = (distance - half) * guide->rate;
         da *= half / distance;
         db *= half / distance;
     }
@@ -53,28 +62,42 @@ static inline float ff_guide_reach(const ff_guide *guide, float da, float db, fl
     if (last->support == 0) l = -l; /* the right foot has landed */
     int i = (int)(f / FF_REACH_CELL + (float)MIDDLE + 0.5f),
         k = (int)(l / FF_REACH_CELL + (float)MIDDLE + 0.5f);
-    return guide->unit * (float)guide->reach[last->reach].cost[i][k] + beyond;
+    return &guide->reach[last->reach].cost[i][k];
 }
 
-static inline float ff_guide_to(const ff_guide *guide, const ff_guide_goal *goal, const float root[2],
-                                float cosine, float sine, const ff_set_action *last)
+static inline ff_guide_look ff_guide_ask(const ff_guide *guide, const ff_guide_goal *goal,
+                                         const float root[2], float cosine, float sine,
+                                         const ff_set_action *last)
 {
+    ff_guide_look look = {NULL, 0.0f, 0.0f};
     float a = goal->at[0] - root[0], b = goal->at[1] - root[1];
     float distance = sqrtf(a * a + b * b), left = distance - guide->radius;
-    if (!(left > 0.0f) && !goal->stand) return goal->beyond;
-    float cost = left > 0.0f ? left * guide->rate : 0.0f;
+    if (!(left > 0.0f) && !goal->stand) return look;
+    if (left > 0.0f) look.least = left * guide->rate;
     if (guide->reach && last->reach != FF_REACH_NONE) {
-        float reach = ff_guide_reach(guide, a, b, distance, cosine, sine, last) - goal->nearer;
+        look.cell = ff_guide_cell(guide, a, b, distance, cosine, sine, last, &look.beyond);
+#ifdef __GNUC__
+        __builtin_prefetch(look.cell);
+#endif
+    }
+    return look;
+}
+
+static inline float ff_guide_answer(const ff_guide *guide, const ff_guide_goal *goal, ff_guide_look look)
+{
+    float cost = look.least;
+    if (look.cell) {
+        float reach = guide->unit * (float)*look.cell + look.beyond - goal->nearer;
         cost = reach > cost ? reach : cost;
     }
     return cost + goal->beyond;
 }
 
-/* J/kg to bring a root within the radius of the goal, from where the last action has left it. */
-static inline float ff_guide_cost(const ff_guide *guide, const float root[2], float cosine, float sine,
-                                  const ff_set_action *last)
+/* J/kg to bring a root within the radius of the goal, from where the last action has left it; look: what was asked about the goal. */
+static inline float ff_guide_cost(const ff_guide *guide, ff_guide_look look, const float root[2],
+                                  float cosine, float sine, const ff_set_action *last)
 {
-    float cost = ff_guide_to(guide, &guide->goal, root, cosine, sine, last);
+    float cost = ff_guide_answer(guide, &guide->goal, look);
     if (!guide->field) return cost;
     double far =
         ff_field_distance(guide->field, ff_add2(guide->origin, ff_v2((double)root[0], (double)root[1])));
@@ -82,8 +105,9 @@ static inline float ff_guide_cost(const ff_guide *guide, const float root[2], fl
     cost = round > cost ? round : cost;
     /* By each of the corners that are still to come: turning towards it costs too. */
     for (uint32_t i = 0; i < guide->via_count; ++i) {
-        if (guide->via[i].field >= (float)far - guide->radius) continue;
-        float by = ff_guide_to(guide, &guide->via[i], root, cosine, sine, last);
+        const ff_guide_goal *via = &guide->via[i];
+        if (via->field >= (float)far - guide->radius) continue;
+        float by = ff_guide_answer(guide, via, ff_guide_ask(guide, via, root, cosine, sine, last));
         cost = by > cost ? by : cost;
     }
     return cost;

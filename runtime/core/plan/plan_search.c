@@ -7,6 +7,8 @@
 #define HOLD 0.5f /* s, of waiting at a time */
 #define LATE 1.5f /* s past the time horizon in which a stop may be found */
 
+enum { BATCH = 8 }; /* children, of which what the guide says is fetched together */
+
 static bool out_of_budget(const ff_search *s)
 {
     if (s->best != FF_SEARCH_NONE && s->result.expanded >= s->first_best + s->options.improve) return true;
@@ -20,19 +22,42 @@ static bool out_of_budget(const ff_search *s)
 }
 
 /* A child that was thought of: tested now, or when it is looked at. */
-static void consider(ff_search *s, ff_search_node *child)
+static void consider(ff_search *s, ff_search_node *child, const ff_search_look *look)
 {
     ++s->result.generated;
     if (child->time > s->latest) return;
-    ff_search_guess(s, child);
+    ff_search_guess(s, child, look);
     if (child->g + child->h >= s->best_cost || ff_search_is_taken(s, child)) return;
     if (!s->options.lazy && !ff_search_is_free(s, child)) return;
     uint32_t index = ff_search_add(s, child);
     if (index != FF_SEARCH_NONE) ff_search_push(s, index);
 }
 
+/* Children that were thought of together. */
+typedef struct batch {
+    ff_search_node child[BATCH];
+    ff_search_look look[BATCH];
+    uint32_t count;
+} batch;
+
+static void consider_all(ff_search *s, batch *b)
+{
+    for (uint32_t i = 0; i < b->count; ++i)
+        consider(s, &b->child[i], &b->look[i]);
+    b->count = 0;
+}
+
+/* The one that was put at the end. */
+static void think_of(ff_search *s, batch *b)
+{
+    b->look[b->count] = ff_search_ask(s, &b->child[b->count]);
+    if (++b->count == BATCH) consider_all(s, b);
+}
+
 static void expand(ff_search *s, uint32_t index)
 {
+    batch thought;
+    thought.count = 0;
     const ff_search_node *n = &s->memory->nodes[index];
     const ff_set_action *a = &s->set->actions[n->action];
     ++s->result.expanded;
@@ -42,13 +67,14 @@ static void expand(ff_search *s, uint32_t index)
     for (uint32_t k = 0; k < next_count; ++k) {
         uint16_t next = s->set->next[a->first_next + k].action;
         if (k >= a->step_count && !ff_set_allows(&s->set->actions[next], s->options.reactive)) continue;
-        ff_search_node child = ff_search_child(s, index, (uint16_t)k);
-        consider(s, &child);
+        thought.child[thought.count] = ff_search_child(s, index, (uint16_t)k);
+        think_of(s, &thought);
     }
     if (a->flags & FF_SET_TO_STANDING) {
-        ff_search_node child = ff_search_waiting(s, index, HOLD);
-        consider(s, &child);
+        thought.child[thought.count] = ff_search_waiting(s, index, HOLD);
+        think_of(s, &thought);
     }
+    consider_all(s, &thought);
 }
 
 /* A node at the head of the queue, tested and with its place taken. Returns whether it ends the round. */
@@ -83,6 +109,7 @@ static bool improve(ff_search *s)
         bool again;
         if (n->flags & FF_NODE_DEAD) continue;
         if (!(n->flags & FF_NODE_TESTED)) {
+            ff_search_fetch(s, n);
             /* Of those that would be found free, half lead to a place that has been taken since they were thought of. */
             if (ff_search_is_taken(s, n)) continue;
             float g = n->g;
@@ -210,7 +237,8 @@ ff_plan_result ff_plan_search(const ff_action_set *set, const ff_plan_world *wor
     s.latest = (float)((FF_TRACK_KNOTS_MAX - 2) * FF_TRACK_STEP) - (float)(end - time) - 2.5f;
     if (++scratch->search == 0) scratch->search = 1;
     ff_search_node first = ff_search_start(&s, doing, end);
-    ff_search_guess(&s, &first);
+    const ff_search_look look = ff_search_ask(&s, &first);
+    ff_search_guess(&s, &first, &look);
     ff_search_add(&s, &first);
     ff_search_push(&s, 0);
     ff_search_follow(&s, current, step);

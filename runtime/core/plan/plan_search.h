@@ -41,7 +41,9 @@ typedef struct ff_search_place {
     uint32_t node, round;
 } ff_search_place;
 
-enum { FF_SEARCH_STANCES = 128 }; /* the queue goes back and forth between parents: 16 were made twice as often */
+enum {
+    FF_SEARCH_STANCES = 128
+}; /* the queue goes back and forth between parents: 16 were made twice as often */
 
 struct ff_plan_scratch {
     uint32_t nodes_max;
@@ -93,9 +95,18 @@ uint32_t ff_search_add(ff_search *s, const ff_search_node *n);
 ff_search_node ff_search_child(const ff_search *s, uint32_t parent, uint16_t k);
 ff_search_node ff_search_waiting(const ff_search *s, uint32_t parent, float seconds);
 void ff_search_root(const ff_search *s, const ff_search_node *n, float root[2]);
-void ff_search_guess(ff_search *s, ff_search_node *n); /* sets h */
+
+/* Where a node's root is, and what there is to know from there. */
+typedef struct ff_search_look {
+    float root[2];
+    ff_guide_look goal;
+} ff_search_look;
+ff_search_look ff_search_ask(const ff_search *s, const ff_search_node *n);
+void ff_search_guess(const ff_search *s, ff_search_node *n, const ff_search_look *look); /* sets h */
 bool ff_search_at_goal(const ff_search *s, const ff_search_node *n);
 
+/* Fetches what a test of the node needs of memory that is hardly ever near, while other things are looked at. */
+void ff_search_fetch(const ff_search *s, const ff_search_node *n);
 /* Is the way from its parent to the node free? Costs of going near others are added. */
 bool ff_search_is_free(ff_search *s, ff_search_node *n);
 /* Can one always stop from here? Found out once per node. */

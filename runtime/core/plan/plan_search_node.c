@@ -14,11 +14,18 @@ void ff_search_root(const ff_search *s, const ff_search_node *n, float root[2])
     root[1] = n->other[1] + d * a->root_end[0] + c * a->root_end[1];
 }
 
-void ff_search_guess(ff_search *s, ff_search_node *n)
+ff_search_look ff_search_ask(const ff_search *s, const ff_search_node *n)
 {
-    float root[2];
-    ff_search_root(s, n, root);
-    n->h = ff_guide_cost(&s->guide, root, n->cosine, n->sine, &s->set->actions[n->action]);
+    ff_search_look look;
+    ff_search_root(s, n, look.root);
+    look.goal =
+        ff_guide_ask(&s->guide, &s->guide.goal, look.root, n->cosine, n->sine, &s->set->actions[n->action]);
+    return look;
+}
+
+void ff_search_guess(const ff_search *s, ff_search_node *n, const ff_search_look *look)
+{
+    n->h = ff_guide_cost(&s->guide, look->goal, look->root, n->cosine, n->sine, &s->set->actions[n->action]);
 }
 
 /* The node that a successor leads to. */
@@ -88,6 +95,17 @@ uint32_t ff_search_add(ff_search *s, const ff_search_node *n)
 }
 
 /* ------------------------------------------------------------------------------------------------------- testing */
+
+void ff_search_fetch(const ff_search *s, const ff_search_node *n)
+{
+#ifdef __GNUC__
+    if (n->flags & FF_NODE_HELD) return;
+    const ff_set_action *a = &s->set->actions[s->memory->nodes[n->parent].action];
+    const char *joint = (const char *)&s->set->joints[a->first_next + n->next];
+    for (uint32_t i = 0; i < sizeof(ff_joint); i += 64)
+        __builtin_prefetch(joint + i);
+#endif
+}
 
 /* Is the way from its parent to the node free? Costs of going near others are added. */
 bool ff_search_is_free(ff_search *s, ff_search_node *n)

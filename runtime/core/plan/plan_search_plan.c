@@ -40,7 +40,8 @@ void ff_search_follow(ff_search *s, const ff_plan *plan, uint32_t step)
         }
         if (child.depth > s->options.horizon || child.time > s->latest || !ff_search_is_free(s, &child))
             return;
-        ff_search_guess(s, &child);
+        const ff_search_look look = ff_search_ask(s, &child);
+        ff_search_guess(s, &child, &look);
         at = ff_search_add(s, &child);
         if (at == FF_SEARCH_NONE) return;
         ff_search_push(s, at);
