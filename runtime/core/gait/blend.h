@@ -35,6 +35,8 @@ typedef struct ff_body_frame {
     ff_vec3 offset[FF_JOINT_COUNT];
     ff_vec3 heel[2], toe[2]; /* in the ankle's and in the ball's frame */
     double thigh[2], shank[2];
+    double toe_length[2],
+        toe_flat[2]; /* m, and rad up from straight ahead, of the toe tip from the ball, seen from the side */
     double ball_rest; /* m, height of the ball joints when the foot is flat */
 } ff_body_frame;
 void ff_body_frame_read(const ff_pack *pack, ff_body_frame *out);
@@ -106,6 +108,8 @@ void ff_blend_clear(ff_blend *out);
  * continuous in the rates, but they may change completely within a few cm/s where simplices are thin, and jump where rates
  * outside of all of them have another nearest place. The blend's own speed and turn stay exact for the weights it has. */
 void ff_blend_follow(const ff_blend_space *space, const ff_blend *wanted, double most, ff_blend *blend);
+/* Lead the semi-procedural clip, which blend is, towards what it is at the wanted rates, by what is possible in dt s. */
+void ff_clip_follow(const ff_blend_space *space, ff_rates wanted, double dt, ff_blend *blend);
 /* The blend of walks whose rates are the nearest to target. */
 void ff_blend_find(const ff_blend_space *space, ff_rates target, ff_blend *out);
 /* The same by any motion that is available (ff_locomotion_available). */

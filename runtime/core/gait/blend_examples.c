@@ -28,6 +28,9 @@ void ff_body_frame_read(const ff_pack *pack, ff_body_frame *body)
         body->shank[foot] = ff_length3(body->offset[leg + 2]);
         body->heel[foot] = vec3_of(pack->points[FF_POINT_HEEL_L + foot].offset);
         body->toe[foot] = vec3_of(pack->points[FF_POINT_TOE_L + foot].offset);
+        ff_vec3 toe = body->toe[foot];
+        body->toe_length[foot] = ff_max(sqrt(toe.z * toe.z + toe.y * toe.y), 1e-6);
+        body->toe_flat[foot] = ff_atan2(toe.y, toe.z);
     }
     body->ball_rest = body->offset[FF_JOINT_HIPS].y;
     for (int j = FF_JOINT_HIP_L; j <= FF_JOINT_BALL_L; ++j)

@@ -1,6 +1,10 @@
 /* blend_follow.c - from one blend to another, gradually: "weights change smoothly" (synthesis study, section 6). */
 #include "runtime/core/gait/blend.h"
 
+#define TURN_ABOUT_SPEED 1.2 /* m/s2 */
+#define CATCH_UP_TIME 0.05   /* s */
+#define PERIOD_SPEED 2.0 /* s per s: steps that shorten quicker would throw the foot that is behind ahead */
+
 /* Weights of all examples of either blend, those of both at the same place; at most twice FF_BLEND_MAX. */
 typedef struct weighing {
     int32_t vertex[2 * FF_BLEND_MAX];
@@ -82,4 +86,21 @@ void ff_blend_follow(const ff_blend_space *space, const ff_blend *wanted, double
     take_most(space, &all, blend);
     if (blend->vertex[0] < 0) *blend = *wanted; /* it was a blend of nothing */
     blend->way = way;
+}
+
+/* Between going ahead and going back the clip is turned about, so that feet lift otherwise: who brakes and backs off at once would
+ * be through that within a tenth of a second, in the middle of a swing. */
+static double turn_about(double now, double wanted, double dt)
+{
+    double past = ff_max(fabs(now) - FF_MODEL_TURN_ABOUT, 0.0);
+    double most = (TURN_ABOUT_SPEED + past / CATCH_UP_TIME) * dt;
+    return ff_clamp(wanted, now - most, now + most);
+}
+
+void ff_clip_follow(const ff_blend_space *space, ff_rates wanted, double dt, ff_blend *blend)
+{
+    double forward = blend->rates.forward, period = blend->period, most = PERIOD_SPEED * dt;
+    wanted.forward = turn_about(forward, wanted.forward, dt);
+    ff_locomotion_find(space, FF_SEMI_PROCEDURAL, wanted, blend);
+    blend->period = ff_clamp(blend->period, period - most, period + most);
 }

@@ -271,6 +271,18 @@ static double weight_change(const ff_gait *gait, double dt)
     return free ? FF_BLEND_CHANGE_MOST : WEIGHT_SPEED * dt;
 }
 
+static void follow_blend(const ff_blend_space *space, ff_gait *gait, double dt)
+{
+    ff_blend wanted;
+    ff_rates asked = blend_rates(gait->rates);
+    if (gait->blend.way == FF_SEMI_PROCEDURAL && gait->stand < 1.0) {
+        ff_clip_follow(space, asked, dt, &gait->blend);
+        return;
+    }
+    ff_locomotion_find(space, (ff_locomotion)gait->blend.way, asked, &wanted);
+    ff_blend_follow(space, &wanted, weight_change(gait, dt), &gait->blend);
+}
+
 /* The clock of the steps: hurries when the body leaves its feet behind, and takes up its pace gradually. */
 static void advance_phase(const ff_blend_space *space, ff_gait *gait, ff_foot_scene *scene)
 {
@@ -310,9 +322,7 @@ void ff_gait_advance(const ff_blend_space *space, ff_gait *gait, const ff_gait_r
         ff_gait_arms(space, &cursor, arms);
     }
     follow_rates(gait, rates, dt);
-    ff_blend wanted;
-    ff_locomotion_find(space, (ff_locomotion)gait->blend.way, blend_rates(gait->rates), &wanted);
-    ff_blend_follow(space, &wanted, weight_change(gait, dt), &gait->blend);
+    follow_blend(space, gait, dt);
     gait->idle_time += dt;
     ff_pose_offset_advance(&gait->offset, dt);
 

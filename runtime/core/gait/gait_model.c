@@ -19,7 +19,6 @@
 #define SIDE_PERIOD 0.95 /* s, less SIDE_SLOPE per m/s */
 #define SIDE_SLOPE 0.25
 #define TURN_PER_CYCLE (0.5 * FF_PI)
-#define TURN_ABOUT 0.12 /* m/s, within which the cycle is read both ways */
 /* Study, section 7: a strafe without them is an A-frame with a still trunk. */
 #define SHIFT 0.4      /* of the way from the middle to the standing foot, in a side step */
 #define SHIFT_FULL 0.3 /* m/s, from where on it is all of that */
@@ -102,7 +101,7 @@ static ff_pack_gait_path sample(const ff_gait_model *model, double phase)
 
 double ff_gait_model_backward(ff_rates rates)
 {
-    return 1.0 - ff_smooth(0.5 + 0.5 * rates.forward / TURN_ABOUT);
+    return 1.0 - ff_smooth(0.5 + 0.5 * rates.forward / FF_MODEL_TURN_ABOUT);
 }
 
 /* The clip at a phase of its own, read forwards, backwards, or between the two: where a foot lifted it now lands. ahead

@@ -20,6 +20,7 @@ typedef struct ff_gait_model {
 #define FF_MODEL_BACKWARD 1.5
 #define FF_MODEL_SIDEWAYS 0.7
 #define FF_MODEL_TURN FF_PI
+#define FF_MODEL_TURN_ABOUT 0.12 /* m/s ahead or back, within which the cycle is read both ways */
 
 /* A foot in the root frame: ball, and the foot's yaw from the root's heading and pitch (toes up +). */
 typedef struct ff_model_foot {

@@ -80,21 +80,6 @@ static double left_of_change(const ff_pose_offset *offset)
 
 #define ROLLS (20.0 * FF_DEG) /* pitch of a foot that is up on its toes */
 #define FLIES 0.08            /* of the swing, from where on, and until where before its end, a foot flies */
-#define ROLLS_FIRST                                                                                          \
-    (4.0 * FF_DEG) /* by which a foot rolls on instead of with a heel that was raised to be in reach ... */
-#define ROLLS_LATER                                                                                          \
-    0.3 /* ... and a share of what it rolls by then: heels would stop in the middle of rolling */
-#define HEEL_SINKS                                                                                           \
-    0.6 /* of the swing, in which a heel that was raised to be in reach comes back to the gait's */
-
-/* A heel that was raised for its foot to be in reach, as it lifted, stays up until the gait has it there, and sinks again. */
-static double raise_left(const ff_gait_foot *state)
-{
-    if (state->planted || state->raised <= 0.0) return 0.0;
-    double rolled = ff_max(state->left_pitch - state->pitch, 0.0);
-    double less = ff_min(rolled, ROLLS_FIRST) + ROLLS_LATER * ff_max(rolled - ROLLS_FIRST, 0.0);
-    return ff_max(state->raised - less, 0.0) * (1.0 - ff_smooth(state->progress / HEEL_SINKS));
-}
 
 double ff_gait_toe_clearance(const ff_gait_foot *state)
 {
@@ -118,7 +103,7 @@ ff_leg_target ff_gait_leg_target(const ff_gait_foot *state, ff_quat turn)
                            .round = round,
                            .toes_more = state->toes_more,
                            .give = state->give,
-                           .raise = raise_left(state)};
+                           .raise = state->planted ? 0.0 : state->least_raise};
 }
 
 static void pose_legs(const ff_body_frame *body, const ff_gait *gait, ff_vec3 hips, ff_quat *rotations)

@@ -27,10 +27,9 @@ static double own_bend(const ff_blend_space *space, const ff_gait *gait, const f
 /* By how much toes must be bent for their tips to have the clearance. */
 static double bend_on_floor(const ff_body_frame *body, const ff_gait_foot *state, int foot, double clearance)
 {
-    ff_vec3 toe = body->toe[foot];
-    double length = sqrt(toe.z * toe.z + toe.y * toe.y), flat = ff_atan2(toe.y, toe.z);
-    double least = body->ball_rest + toe.y + clearance - state->now.height;
-    return 0.5 * FF_PI - ff_acos(least / length) - flat + state->tilt;
+    double least = body->ball_rest + body->toe[foot].y + clearance - state->now.height;
+    double up = 0.5 * FF_PI - ff_acos(least / body->toe_length[foot]);
+    return up - body->toe_flat[foot] + state->tilt;
 }
 
 static void bend_toes(const ff_body_frame *body, ff_gait_foot *state, int foot, double own, double most)

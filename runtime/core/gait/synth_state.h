@@ -31,10 +31,11 @@ typedef struct ff_gait_foot {
     double knee_speed; /* rad/s */
     double
         raised; /* rad, by how much its heel is higher than the gait has it, to be in reach; in swing, as it lifted */
-    double tilt;       /* rad, by how much the foot points down, its heel raised to be in reach */
-    double most_raise; /* rad, by which it may still be raised for that, in swing */
-    double toes;       /* rad, by how much toes are bent up, */
-    double toes_more;  /* ... and by how much more than in the motion */
+    double tilt;        /* rad, by how much the foot points down, its heel raised to be in reach */
+    double least_raise; /* rad, in swing: by how much it is raised in any case, */
+    double most_raise;  /* ... and may be beyond that, to be in reach */
+    double toes;        /* rad, by how much toes are bent up, */
+    double toes_more;   /* ... and by how much more than in the motion */
     double give; /* m, that the leg is longer than to its foot in the air, so that the knee takes its time */
     uint32_t planted, unused;
 } ff_gait_foot;
