@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "runtime/core/crowd/crowd_state.h"
 #include "runtime/core/nav/nav_path.h"
+#include "runtime/core/plan/plan_hit.h"
 #include "runtime/export/body_contacts.h"
 #include "tests/built_in_open.h"
 #include "tests/core/crowd_ask.h"
@@ -61,6 +62,89 @@ static void who_stands_too_near_is_not_pushed_away(void **state)
     assert_true(ff_path_meet(&far, &me, 0.3).reach > meeting.reach);
 }
 
+/* ------------------------------------------------------------------------------------------------- glides */
+
+static ff_rates any_rates(const void *context, ff_rates target)
+{
+    (void)context;
+    return target;
+}
+
+static ff_vec2 end_of(const ff_glide *glide)
+{
+    int last = FF_GLIDE_POINTS - 1;
+    return ff_add2(glide->origin, ff_v2((double)glide->a[last], (double)glide->b[last]));
+}
+
+static void a_glide_ends_where_a_body_comes_to_a_stand(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 40; ++i) {
+        ff_body body = {.heading = 0.3 * i, .rates = {0.2 + 0.07 * (i % 20), 0.0, 0.0}, .phase = i / 40.0};
+        ff_body_limits limits = {any_rates, NULL, NULL, 0, 0.3, false};
+        ff_glide glide;
+        ff_glide_roll(body.position, ff_body_velocity(&body), ff_v2(0.0, 0.0), 0.0, &glide);
+        for (int k = 0; k < 60; ++k)
+            ff_body_step(&body, ff_v2(0.0, 0.0), body.heading, STEP, &limits);
+        double off = ff_dot2(ff_sub2(end_of(&glide), body.position), ff_fwd2(body.heading));
+        /* The glide brakes as in a swing: who brakes on a plant stands sooner, nobody later. */
+        assert_true(off > -0.02 && off < 0.2);
+    }
+}
+
+/* Somebody on a straight way, colliders in a row across it. */
+static ff_track straight_track(ff_vec2 from, ff_vec2 velocity)
+{
+    ff_track track = {.origin = from, .count = 60};
+    ff_vec2 across = ff_left2(ff_unit2(velocity));
+    for (int i = 0; i < FF_COLLIDER_COUNT; ++i)
+        track.radii[i] = 0.1f;
+    for (uint32_t k = 0; k < track.count; ++k) {
+        for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
+            double side = 0.08 * (i - 0.5 * (FF_COLLIDER_COUNT - 1));
+            ff_vec2 at = ff_madd2(ff_scale2(velocity, k * FF_TRACK_STEP), across, side);
+            track.knots[k].a[i] = (float)at.a;
+            track.knots[k].b[i] = (float)at.b;
+        }
+        track.radius[k] = ff_knot_radius(&track.knots[k], track.radii);
+    }
+    return track;
+}
+
+/* By brute force. */
+static double nearest_to(const ff_track *track, ff_vec2 velocity, ff_vec2 p, double seconds)
+{
+    double least = INFINITY;
+    for (double t = 0.0; t < seconds; t += 1e-3)
+        for (int i = 0; i < FF_COLLIDER_COUNT; ++i) {
+            ff_vec2 at = ff_v2((double)track->knots[0].a[i], (double)track->knots[0].b[i]);
+            ff_vec2 there = ff_madd2(ff_add2(track->origin, at), velocity, t);
+            least = ff_min(least, ff_length2(ff_sub2(there, p)) - (double)track->radii[i]);
+        }
+    return least;
+}
+
+static void how_near_a_plan_comes_is_as_by_brute_force(void **state)
+{
+    (void)state;
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < 60; ++i) {
+        ff_vec2 from = ff_scale2(ff_fwd2(0.7 * i), 3.0),
+                aside = ff_scale2(ff_left2(ff_fwd2(0.7 * i)), 0.012 * i);
+        ff_vec2 velocity = ff_scale2(ff_sub2(aside, from), 0.35);
+        ff_track track = straight_track(from, velocity);
+        ff_glide stands;
+        ff_glide_roll(ff_v2(0.0, 0.0), ff_v2(0.0, 0.0), ff_v2(0.0, 0.0), 0.0, &stands);
+        double room = ff_glide_meets(&stands, &track, 0.0, 3.5, NULL) +
+                      nearest_to(&track, velocity, ff_v2(0.0, 0.0), 3.5);
+        low = ff_min(low, room);
+        high = ff_max(high, room);
+    }
+    /* The room that the two shall have: always the same, that of a body. */
+    assert_true(low > 0.3 && high < 0.5);
+    FF_ASSERT_BELOW(high - low, 0.01);
+}
+
 /* ------------------------------------------------------------------------------------------------- crowds */
 
 static ff_cylinders body_of(const ff_figure *figure, const ff_crowd *crowd, ff_agent agent)
@@ -73,15 +157,38 @@ static ff_cylinders body_of(const ff_figure *figure, const ff_crowd *crowd, ff_a
     return ff_cylinders_of_colliders(pack, joints, turned);
 }
 
-/* How deep one who plans and one who goes by velocity ever get into each other on a circle; everybody gets across. */
-static double deepest_on_circle(const ff_figure *figure, double off)
+/* Is a plan of the step that is over free of all glides of it, or nearer to none than what was in force? And of all other plans? */
+static void check_new_plan(const ff_crowd *crowd, uint32_t slot, const ff_track *before, double time)
+{
+    const ff_track *track = &crowd->steppers[slot].track;
+    for (uint32_t i = 0; i < crowd->slot_count; ++i) {
+        if (i == slot) continue;
+        if (ff_is_stepper(crowd, i)) {
+            assert_false(ff_track_conflict(track, &crowd->steppers[i].track, time, 0.0, NULL));
+            continue;
+        }
+        const ff_glide *glide = &crowd->footsteps->glides[i];
+        double met = ff_glide_meets(glide, track, time, INFINITY, NULL);
+        assert_true(met <= 0.0 || met <= ff_glide_meets(glide, before, time, INFINITY, NULL));
+    }
+}
+
+static void check_plans(const ff_crowd *crowd, const ff_track *before, const uint64_t *reactions, double time)
+{
+    for (uint32_t i = 0; i < crowd->slot_count; ++i) {
+        const ff_stepper *s = &crowd->steppers[i];
+        /* Who has to break off a step does what it can. */
+        if (ff_is_stepper(crowd, i) && s->created == time && s->counts.reactions == reactions[i])
+            check_new_plan(crowd, i, &before[i], time);
+    }
+}
+
+/* Every other one on footsteps, all on the way across. */
+static ff_crowd *circle_of(double off, ff_agent agent[AGENTS])
 {
     ff_crowd_def def = ff_crowd_def_default();
     ff_crowd *crowd;
-    ff_agent agent[AGENTS];
-    ff_cylinders body[AGENTS];
     ff_error error;
-    double deepest = 0.0;
     def.max_agents = AGENTS;
     def.step = STEP;
     def.planner = FF_PLANNER_FOOTSTEPS;
@@ -95,6 +202,35 @@ static double deepest_on_circle(const ff_figure *figure, double off)
         one.planner = i % 2 == 0 ? FF_PLANNER_FOOTSTEPS : FF_PLANNER_VELOCITY;
         FF_ASSERT_OK(ff_crowd_add_agent(crowd, &one, &agent[i], &error), error);
     }
+    return crowd;
+}
+
+static void plans_come_into_force_only_past_others_and_past_where_they_can_stop(void **state)
+{
+    (void)state;
+    static ff_track before[AGENTS];
+    uint64_t reactions[AGENTS];
+    ff_agent agent[AGENTS];
+    ff_crowd *crowd = circle_of(0.03, agent);
+    for (int step = 0; step < 10.0 / STEP; ++step) {
+        double time = ff_crowd_time(crowd);
+        for (int i = 0; i < AGENTS; ++i) {
+            before[i] = crowd->steppers[i].track;
+            reactions[i] = crowd->steppers[i].counts.reactions;
+        }
+        ff_crowd_step(crowd);
+        check_plans(crowd, before, reactions, time);
+    }
+    ff_crowd_destroy(crowd);
+}
+
+/* How deep one who plans and one who goes by velocity ever get into each other on a circle; everybody gets across. */
+static double deepest_on_circle(const ff_figure *figure, double off)
+{
+    ff_agent agent[AGENTS];
+    ff_cylinders body[AGENTS];
+    double deepest = 0.0;
+    ff_crowd *crowd = circle_of(off, agent);
     for (int step = 0; step < 20.0 / STEP; ++step) {
         ff_crowd_step(crowd);
         for (int i = 0; i < AGENTS; ++i)
@@ -128,6 +264,9 @@ int main(void)
         cmocka_unit_test(who_goes_straight_is_met_as_a_disc_is),
         cmocka_unit_test(where_a_plan_turns_is_known_before_it_does),
         cmocka_unit_test(who_stands_too_near_is_not_pushed_away),
+        cmocka_unit_test(a_glide_ends_where_a_body_comes_to_a_stand),
+        cmocka_unit_test(how_near_a_plan_comes_is_as_by_brute_force),
+        cmocka_unit_test(plans_come_into_force_only_past_others_and_past_where_they_can_stop),
         cmocka_unit_test(a_mixed_crowd_crosses_a_circle),
     };
     return cmocka_run_group_tests_name("mixed crowds", tests, open_pack, close_pack);

@@ -64,6 +64,13 @@ static double until_met(const ff_crowd *crowd, const ff_stepper *s, ff_obstacle_
     return least;
 }
 
+/* Somebody who goes by velocity could not keep off the plan. */
+static bool walkers_met(const ff_crowd *crowd, uint32_t slot, double time)
+{
+    return ff_glides_met(crowd, slot, &crowd->steppers[slot].track, &crowd->footsteps->bounds[slot], time,
+                         IMMINENT) < INFINITY;
+}
+
 void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
 {
     uint32_t slot = crowd->grid.seen[index].slot;
@@ -87,7 +94,7 @@ void ff_footsteps_watch(ff_crowd *crowd, uint32_t index)
         call_for(s, FF_EVENT_DANGER, time);
         s->evasions = evasions;
     }
-    if (moved <= IMMINENT || (time - s->created > SETTLED && ff_walkers_meet(crowd, slot, time, IMMINENT))) {
+    if (moved <= IMMINENT || (time - s->created > SETTLED && walkers_met(crowd, slot, time))) {
         if (!(s->pending >> FF_EVENT_SURPRISE & 1u)) s->surprised = time;
         call_for(s, FF_EVENT_SURPRISE, time);
     }

@@ -82,10 +82,11 @@ ff_status ff_footsteps_create(ff_crowd *crowd, ff_error *error)
     f->jobs = ff_calloc(f->job_max, sizeof *f->jobs);
     f->bounds = ff_calloc(def->max_agents, sizeof *f->bounds);
     f->paths = ff_calloc(def->max_agents, sizeof *f->paths);
+    f->glides = ff_calloc(def->max_agents, sizeof *f->glides);
     f->order = ff_calloc(f->job_max, sizeof *f->order);
     f->changed = ff_calloc((size_t)f->job_max + def->max_agents, sizeof *f->changed);
     f->movers = ff_calloc((size_t)def->max_obstacles + 1, sizeof *f->movers);
-    if (!f->jobs || !f->order || !f->bounds || !f->paths || !f->changed || !f->movers ||
+    if (!f->jobs || !f->order || !f->bounds || !f->paths || !f->glides || !f->changed || !f->movers ||
         !take_lanes(f, def, error))
         return ff_fail(error, FF_ERR_NO_MEMORY, "the footsteps of %u agents", def->max_agents);
     for (uint32_t slot = 0; slot < def->max_agents; ++slot)
@@ -108,6 +109,7 @@ void ff_footsteps_destroy(ff_footsteps *f)
     free(f->order);
     free(f->bounds);
     free(f->paths);
+    free(f->glides);
     free(f->changed);
     free(f->movers);
     ff_solids_destroy(f->solids);

@@ -10,6 +10,7 @@
  *   crowd_events.c     who needs a new plan, and why
  *   crowd_plan.c       whose turn it is, searching, putting in force
  *   crowd_walkers.c    how they see those who go by velocity
+ *   crowd_glides.c     how both keep a way to stop that is free of the others'
  *   crowd_react.c      breaking off a step
  *   crowd_change.c     from velocity to footsteps and back
  *   crowd_obstacles.c  things in the way
@@ -36,6 +37,8 @@ typedef struct ff_stepper {
     double retry;     /* s: before that nothing is searched for */
     double asked;     /* s: since when a new plan is wanted */
     double surprised; /* s: when what is in the way was noticed */
+    ff_vec2 goes;     /* m/s, of one who goes by velocity: the command of its glide, ... */
+    double brakes;    /* s: ... and for how long it is kept */
     uint32_t waypoint_count, waypoint_next;
     uint32_t pending;       /* bit n: event n has called for a plan */
     uint32_t at;            /* step of the plan that is played */
@@ -64,7 +67,8 @@ typedef struct ff_plan_job {
     uint32_t good; /* 1: found, and free of all plans in force */
     uint32_t kind; /* FF_JOB_* */
     uint32_t urgency;
-    uint32_t tests, spare; /* collision tests of the search */
+    uint32_t tests;  /* collision tests of the search */
+    uint32_t forced; /* 1: what is really there lets it come into force, whatever plans it crosses */
     double asked;
     double seconds; /* of the processor */
 } ff_plan_job;
@@ -93,6 +97,14 @@ typedef struct ff_plan_lane {
     ff_path_point (*paths)[2]; /* [max_obstacles] */
 } ff_plan_lane;
 
+/* Where one who goes by velocity gets, if it goes on for a while as was decided in this step and then stops: FF_TRACK_STEP apart, from
+ * now on, relative to the first. */
+enum { FF_GLIDE_POINTS = 46 };
+typedef struct ff_glide {
+    ff_vec2 origin; /* m */
+    float a[FF_GLIDE_POINTS], b[FF_GLIDE_POINTS];
+} ff_glide;
+
 /* What all of them share. */
 typedef struct ff_footsteps {
     ff_action_set *actions;
@@ -106,6 +118,7 @@ typedef struct ff_footsteps {
     uint32_t *order;      /* [job_max] of slots */
     ff_bounds *bounds;    /* [max_agents], by slot */
     ff_path *paths;       /* [max_agents], by slot: of this step, of those who move by footsteps */
+    ff_glide *glides;     /* [max_agents], by slot: of this step, of those who go by velocity */
     atomic_uint next_job; /* of this step; up to job_end */
     uint32_t job_end, spare;
     uint32_t
@@ -180,17 +193,26 @@ static inline bool ff_bounds_meet(const ff_bounds *p, const ff_bounds *q)
 
 /* crowd_walkers.c. Somebody who goes by velocity, as the agent sees it. */
 ff_walker ff_walker_of(const struct ff_crowd *crowd, uint32_t slot, const ff_seen *other, double time);
-/* Does a track, from a time on for some seconds, meet it, if it goes on? *when (may be NULL): s, absolute. */
-bool ff_walker_meets(const ff_walker *walker, const ff_track *track, double time, double seconds,
-                     double margin, double *when);
-/* Does the agent's plan in force meet any? */
-bool ff_walkers_meet(const struct ff_crowd *crowd, uint32_t slot, double time, double seconds);
 /* The nearest of those who can be met. */
 void ff_walkers_see(const struct ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world);
-/* They know the plan in force and keep off it: who would meet it is believed to go on only until then. */
-void ff_walkers_yield(const struct ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane,
-                      const ff_plan_world *world);
+/* They go where they say: without more room as time goes on. */
+void ff_walkers_believe(ff_plan_lane *lane, const ff_plan_world *world);
 #define FF_WALKER_IMMINENT 0.5 /* s: who goes by velocity cannot make way in less */
+
+/* crowd_glides.c. After navigation has decided for one who goes by velocity: its command is changed to one from which it can stop
+ * without meeting a plan, and its glide is published. */
+void ff_glide_choose(struct ff_crowd *crowd, uint32_t index);
+/* From a place at a velocity: towards a command for `hold` seconds, then to a stand. */
+void ff_glide_roll(ff_vec2 position, ff_vec2 velocity, ff_vec2 command, double hold, ff_glide *out);
+/* m, by which a glide comes nearer to a track than it shall; <= 0: it does not. *when (may be NULL): s from now. */
+double ff_glide_meets(const ff_glide *glide, const ff_track *track, double time, double seconds,
+                      double *when);
+
+/* s from now until the agent's track, which stays within bounds, meets the first of all glides; INFINITY: none, in so many seconds. */
+double ff_glides_met(const struct ff_crowd *crowd, uint32_t slot, const ff_track *track,
+                     const ff_bounds *bounds, double time, double seconds);
+/* Is a job's plan free of all glides, for ever, or no worse than the one in force? */
+bool ff_glides_allow(const struct ff_crowd *crowd, const ff_plan_job *job, double time);
 
 /* crowd_react.c: break off the step that is being done for one that is free of what is in the way. False: none is. */
 bool ff_stepper_react(const struct ff_crowd *crowd, uint32_t slot, const ff_plan_world *world, double time,

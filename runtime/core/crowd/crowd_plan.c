@@ -154,12 +154,15 @@ bool ff_job_free(const ff_crowd *crowd, const ff_plan_job *job, uint32_t slot, d
 {
     if (slot == job->slot || !ff_bounds_meet(&crowd->footsteps->bounds[slot], &job->bounds)) return true;
     const ff_stepper *other = &crowd->steppers[slot], *own = &crowd->steppers[job->slot];
-    if (!ff_track_conflict(&job->track, &other->track, time, 0.0, NULL)) return true;
-    /* Those who are in each other's way already may do what they can. */
-    return ff_is_stepper(crowd, job->slot) && ff_track_conflict(&own->track, &other->track, time, 0.0, NULL);
+    double when, before;
+    if (!ff_track_conflict(&job->track, &other->track, time, 0.0, &when)) return true;
+    /* Those who are in each other's way already do what they can: who meets the other no sooner. */
+    return ff_is_stepper(crowd, job->slot) &&
+           ff_track_conflict(&own->track, &other->track, time, 0.0, &before) &&
+           (when > before || before <= time);
 }
 
-/* The track, and whether it is free of all plans in force. */
+/* The track, and whether it is free of all plans in force, and of where those who go by velocity stop. */
 static void finish_job(const ff_crowd *crowd, ff_plan_job *job, double time)
 {
     ff_plan_track(crowd->footsteps->actions, &job->plan, time, &job->track);
@@ -167,6 +170,7 @@ static void finish_job(const ff_crowd *crowd, ff_plan_job *job, double time)
     job->good = 1;
     for (uint32_t i = 0; i < crowd->slot_count && job->good && !crowd->def.footsteps.paper; ++i)
         job->good = ff_job_free(crowd, job, i, time);
+    if (job->good) job->good = ff_glides_allow(crowd, job, time);
     if (!job->good) ++job->counts.conflicting;
 }
 
@@ -184,13 +188,12 @@ static ff_plan_goal goal_of(const ff_crowd *crowd, uint32_t slot, ff_vec2 target
     return goal;
 }
 
-static bool meets_soon(const ff_plan_world *world, const ff_track *track, double time)
+static bool meets_soon(const ff_crowd *crowd, const ff_plan_world *world, const ff_plan_job *job, double time)
 {
     for (uint32_t i = 0; i < world->shape_count; ++i)
-        if (ff_track_meets(track, time, IMMINENT, &world->shapes[i], ff_v2(0.0, 0.0), 0.0, NULL)) return true;
-    for (uint32_t i = 0; i < world->walker_count; ++i)
-        if (ff_walker_meets(&world->walkers[i], track, time, FF_WALKER_IMMINENT, 0.0, NULL)) return true;
-    return false;
+        if (ff_track_meets(&job->track, time, IMMINENT, &world->shapes[i], ff_v2(0.0, 0.0), 0.0, NULL))
+            return true;
+    return ff_glides_met(crowd, job->slot, &job->track, &job->bounds, time, FF_WALKER_IMMINENT) < INFINITY;
 }
 
 /* What one can do without the help of those who go by velocity; or else what they leave room for. */
@@ -208,7 +211,7 @@ static ff_plan_outcome find_plan(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane
     ff_plan_result result = {.outcome = FF_PLAN_NONE};
     int tries = world->walker_count > 0 && job->kind == FF_JOB_PLAN ? 2 : 1;
     for (int i = 0; i < tries && result.outcome == FF_PLAN_NONE; ++i) {
-        if (i > 0) ff_walkers_yield(crowd, job->slot, lane, world);
+        if (i > 0) ff_walkers_believe(lane, world);
         result = ff_plan_search(f->actions, world, current, ff_crowd_time(crowd), &goal, &options,
                                 lane->scratch, &job->plan);
         job->counts.nodes += result.expanded;
@@ -223,7 +226,7 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
     const ff_stepper *s = &crowd->steppers[job->slot];
     double time = ff_crowd_time(crowd);
     ff_plan current = s->plan;
-    job->good = 0;
+    job->good = job->forced = 0;
     job->tests = 0;
     memset(&job->counts, 0, sizeof job->counts);
     if (job->kind == FF_JOB_ENTER && !ff_stepper_enters(crowd, job->slot, time, &current)) return;
@@ -234,7 +237,7 @@ static void search(ff_crowd *crowd, ff_plan_job *job, ff_plan_lane *lane)
     else
         finish_job(crowd, job, time);
     if (job->kind == FF_JOB_PLAN && s->pending & URGENT &&
-        (!job->good || meets_soon(&world, &job->track, time)))
+        (!job->good || meets_soon(crowd, &world, job, time)))
         ff_stepper_react(crowd, job->slot, &world, time, job);
 }
 
@@ -302,7 +305,7 @@ static void put_in_force(ff_crowd *crowd, ff_plan_job *job, double time)
     ff_stepper *s = &crowd->steppers[job->slot];
     bool was_good = job->good;
     for (uint32_t i = 0; i < f->changed_count && job->good && !crowd->def.footsteps.paper; ++i)
-        job->good = job->kind == FF_JOB_REACT || ff_job_free(crowd, job, f->changed[i], time);
+        job->good = job->forced || ff_job_free(crowd, job, f->changed[i], time);
     if (was_good && !job->good) ++job->counts.conflicting;
     add_counts(&s->counts, &job->counts);
     if (!job->good) {

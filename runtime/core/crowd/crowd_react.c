@@ -15,7 +15,6 @@
 #define HARDLY_BEGUN 0.25
 #define LOOK 1.5   /* s ahead */
 #define SUDDEN 0.4 /* s: what is met so soon in spite of everything lets one stop dead */
-#define ROOM 0.08  /* m, that is left to those who go by velocity, who do not expect one to stop */
 #define MOST 48    /* ways that are tried */
 
 /* How bad: the sooner something is met, the worse. What is really there comes first, then people, whether they plan or go by
@@ -68,9 +67,7 @@ static void stop_after(const ff_action_set *set, const ff_plan_step *step, const
     out->stop = out->count - 1;
 }
 
-/* room: m, to be kept from those who go by velocity, on top of what they need at least. */
-static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double time, const ff_plan_job *job,
-                     double room)
+static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double time, const ff_plan_job *job)
 {
     outcome out = {INFINITY, INFINITY, INFINITY, job->plan.steps[job->plan.count - 1].start - time};
     double when;
@@ -83,9 +80,8 @@ static outcome judge(const ff_crowd *crowd, const ff_plan_world *world, double t
             ff_track_meets(&job->track, time, LOOK, &obstacle->shape, obstacle->velocity, 0.0, &when))
             out.surprise = ff_min(out.surprise, when - time);
     }
-    for (uint32_t i = 0; i < world->walker_count; ++i)
-        if (ff_walker_meets(&world->walkers[i], &job->track, time, LOOK, room, &when))
-            out.walkers = ff_min(out.walkers, when - time);
+    ff_bounds bounds = ff_track_bounds(&job->track);
+    out.walkers = ff_glides_met(crowd, job->slot, &job->track, &bounds, time, LOOK);
     if (ff_solids_hit(world->solids, job->track.origin, 10.0, job->track.origin, job->track.knots,
                       job->track.count, job->track.radii, 0.0))
         out.surprise = ff_min(out.surprise, out.stand);
@@ -103,7 +99,16 @@ typedef struct ways {
     double time;
     uint32_t slot, tried;
     bool found;
+    bool forced;   /* what is really there is about to be met: plans in force come second */
+    double others; /* s until what is done now meets a plan in force */
 } ways;
+
+/* People can make way: for their sake no plan comes into force that crosses another one in force, or crosses it sooner than what
+ * is done now. Two whose plans cross once may do what they can, and walk through each other. */
+static bool crosses(const ways *w, const outcome *result)
+{
+    return !w->forced && result->others < INFINITY && result->others <= w->others;
+}
 
 /* Try a step with each of its ways of stopping. */
 static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from, bool cut)
@@ -117,8 +122,8 @@ static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from
         job.slot = w->slot;
         stop_after(set, step, from, stands ? NULL : &set->stops[a->first_stop + k], &job.plan);
         ff_plan_track(set, &job.plan, w->time, &job.track);
-        outcome result = judge(w->crowd, w->world, w->time, &job, ROOM);
-        if (w->found && !better(&result, &w->outcome)) continue;
+        outcome result = judge(w->crowd, w->world, w->time, &job);
+        if (crosses(w, &result) || (w->found && !better(&result, &w->outcome))) continue;
         w->found = true;
         w->outcome = result;
         w->best->plan = job.plan;
@@ -135,8 +140,8 @@ static void try_freezing(ways *w)
     job.slot = w->slot;
     ff_plan_stand(w->crowd->footsteps->actions, body->position, body->heading, w->time, &job.plan);
     ff_plan_track(w->crowd->footsteps->actions, &job.plan, w->time, &job.track);
-    outcome result = judge(w->crowd, w->world, w->time, &job, ROOM);
-    if (!better(&result, &w->outcome)) return;
+    outcome result = judge(w->crowd, w->world, w->time, &job);
+    if (crosses(w, &result) || !better(&result, &w->outcome)) return;
     w->outcome = result;
     w->best->plan = job.plan;
     w->best->track = job.track;
@@ -153,6 +158,7 @@ static bool take_best(const ff_crowd *crowd, uint32_t slot, const ways *w, const
     job->bounds = ff_track_bounds(&job->track);
     job->target = ff_stepper_target(crowd, slot);
     job->good = 1;
+    job->forced = w->forced;
     job->counts.reactions = job->kind == FF_JOB_REACT;
     return true;
 }
@@ -168,8 +174,10 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
     /* What the plan in force, or the one just found, would meet. */
     ff_plan_job keep = {
         .slot = slot, .plan = job->good ? job->plan : s->plan, .track = job->good ? job->track : s->track};
-    w.outcome = judge(crowd, world, time, &keep, 0.0);
+    w.outcome = judge(crowd, world, time, &keep);
     w.found = true;
+    w.forced = w.outcome.surprise < INFINITY;
+    w.others = w.outcome.others;
     if (w.outcome.surprise == INFINITY && w.outcome.walkers > FF_WALKER_IMMINENT &&
         w.outcome.others == INFINITY)
         return false;

@@ -170,6 +170,7 @@ static void navigate(ff_crowd *crowd, uint32_t index)
     body.stance.foot = ff_gait_stance(&crowd->gaits[slot], &body.stance.ball, &body.stance.heading);
     ff_nav_step(&world, index, crowd->neighbours[index], crowd->neighbour_count[index], &crowd->traits[slot],
                 &body, &crowd->minds[slot]);
+    if (crowd->footsteps) ff_glide_choose(crowd, index);
     choose(crowd, index);
 }
 

@@ -1,25 +1,24 @@
-/* crowd_walkers.c - how those who plan see those who go by velocity: bodies longer than wide, that are believed to go on as they
- * are about to, with room that grows. They keep off plans, which they know (nav_path.h): this is to leave them room to do so. */
+/* crowd_walkers.c - how searches see those who go by velocity: bodies longer than wide, that go where their glides lead (crowd_glides.c)
+ * and stand there, with room that grows. They keep off plans, which they know (nav_path.h): this is to leave them room to do so. */
 #include "runtime/core/crowd/crowd_state.h"
 #include "runtime/core/plan/plan_set.h"
 
 #define WIDE 0.33   /* m from the root, the planner's margin not counted: elbows and hands */
-#define LEAN 0.28   /* m: what is in nobody's way but theirs who come nearer than that */
 #define STRIDE 0.2  /* m more before and behind, of who walks briskly */
 #define BRISK 1.2   /* m/s */
 #define GROW 0.08   /* m/s */
-#define SEEN 2.5    /* s, in which one is believed to go on straight */
+#define SEEN 2.5    /* s, for which one goes on at most before it stands, braking included */
+#define AHEAD 5.5   /* s, that plans reach ahead */
 #define PLANNER 1.7 /* m/s, of those who plan, at the most */
 #define BODIES 1.5  /* m: two bodies and some */
 #define LEAST 0.1   /* m, of somebody however near */
 #define TOUCH 5e-3  /* m */
-#define TALL 2.0    /* m */
 
 enum { MOST = 48 }; /* of them, the nearest */
 
 static double reach_of(const ff_seen *other)
 {
-    return BODIES + SEEN * (ff_length2(other->reference) + PLANNER);
+    return BODIES + SEEN * ff_length2(other->reference) + AHEAD * PLANNER;
 }
 
 static double beside(ff_vec2 p, const ff_walker *w, ff_vec2 at)
@@ -56,7 +55,6 @@ static void leave_what_is(const ff_crowd *crowd, uint32_t slot, double time, ff_
                               ff_madd2(w->position, w->velocity, later)) -
                       TOUCH;
         double kept = room - crowd->def.footsteps.margin - w->grow * later;
-        if (k == first) w->close = ff_max(ff_min(w->close, room), LEAST);
         w->radius = ff_max(ff_min(w->radius, kept), LEAST);
     }
 }
@@ -64,33 +62,19 @@ static void leave_what_is(const ff_crowd *crowd, uint32_t slot, double time, ff_
 ff_walker ff_walker_of(const ff_crowd *crowd, uint32_t slot, const ff_seen *other, double time)
 {
     double brisk = ff_min(ff_length2(other->reference) / BRISK, 1.0);
-    ff_walker w = {other->position, other->reference, WIDE, WIDE, LEAN, STRIDE * brisk, GROW, SEEN};
+    const ff_glide *glide = &crowd->footsteps->glides[other->slot];
+    ff_walker w = {.position = other->position,
+                   .velocity = other->reference,
+                   .wide = WIDE,
+                   .radius = WIDE,
+                   .half_length = STRIDE * brisk,
+                   .grow = GROW,
+                   .until = INFINITY,
+                   .path_a = glide->a,
+                   .path_b = glide->b,
+                   .path_count = FF_GLIDE_POINTS};
     if (ff_is_stepper(crowd, slot)) leave_what_is(crowd, slot, time, &w);
     return w;
-}
-
-bool ff_walker_meets(const ff_walker *walker, const ff_track *track, double time, double seconds,
-                     double margin, double *when)
-{
-    ff_shape body = {.centre = walker->position,
-                     .heading = ff_atan2(walker->velocity.b, walker->velocity.a),
-                     .half_length = walker->half_length,
-                     .radius = walker->close,
-                     .high = TALL};
-    return ff_track_meets(track, time, seconds, &body, walker->velocity, margin, when);
-}
-
-bool ff_walkers_meet(const ff_crowd *crowd, uint32_t slot, double time, double seconds)
-{
-    if (crowd->stepper_count == crowd->agent_count) return false;
-    ff_vec2 here = crowd->bodies[slot].position;
-    for (uint32_t i = 0; i < crowd->grid.count; ++i) {
-        const ff_seen *other = &crowd->grid.seen[i];
-        if (other->firm || ff_length2(ff_sub2(other->position, here)) > reach_of(other)) continue;
-        ff_walker walker = ff_walker_of(crowd, slot, other, time);
-        if (ff_walker_meets(&walker, &crowd->steppers[slot].track, time, seconds, 0.0, NULL)) return true;
-    }
-    return false;
 }
 
 void ff_walkers_see(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff_plan_world *world)
@@ -117,13 +101,8 @@ void ff_walkers_see(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, ff
     world->walker_count = count;
 }
 
-void ff_walkers_yield(const ff_crowd *crowd, uint32_t slot, ff_plan_lane *lane, const ff_plan_world *world)
+void ff_walkers_believe(ff_plan_lane *lane, const ff_plan_world *world)
 {
-    double time = ff_crowd_time(crowd), when;
-    for (uint32_t i = 0; i < world->walker_count; ++i) {
-        ff_walker *w = &lane->walkers[i];
-        w->grow = 0.0;
-        if (ff_walker_meets(w, &crowd->steppers[slot].track, time, w->until, 0.0, &when))
-            w->until = when - time;
-    }
+    for (uint32_t i = 0; i < world->walker_count; ++i)
+        lane->walkers[i].grow = 0.0;
 }

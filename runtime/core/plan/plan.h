@@ -187,10 +187,12 @@ typedef struct ff_walker {
     ff_vec2 position, velocity; /* at the time of the world */
     double wide;                /* m, its radius */
     double radius; /* m: no more than there is room for until the present step is over, and then regained */
-    double close;  /* m: no more than there is room for now */
     double half_length; /* m */
     double grow;        /* m/s, of the radius */
     double until;       /* s: for so long it is believed to go on */
+    /* NULL: straight on; else from its position, FF_TRACK_STEP apart from the time of the world on; it stands at the last one */
+    const float *path_a, *path_b;
+    uint32_t path_count, reserved;
 } ff_walker;
 
 /* What does not move: walls (segments of any height, solid from both sides) and shapes, with a tree that finds those near. */

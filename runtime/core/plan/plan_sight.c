@@ -161,10 +161,21 @@ static void see_movers(ff_sight *s, const ff_plan_world *world)
     }
 }
 
+/* Where it is believed to be, so many seconds from the time of the world on, from where it is then. */
+static ff_vec2 walker_at(const ff_walker *w, double time)
+{
+    if (!w->path_a) return ff_scale2(w->velocity, time);
+    double k = ff_clamp(time / FF_TRACK_STEP, 0.0, w->path_count - 1.0);
+    uint32_t i = (uint32_t)k, next = i + 1 < w->path_count ? i + 1 : i;
+    ff_vec2 p = ff_v2((double)w->path_a[i], (double)w->path_b[i]),
+            q = ff_v2((double)w->path_a[next], (double)w->path_b[next]);
+    return ff_madd2(p, ff_sub2(q, p), k - i);
+}
+
 /* Somebody who goes by velocity is believed to go on for a while, and then is anywhere. */
 static void see_walkers(ff_sight *s, const ff_plan_world *world, double view)
 {
-    const double yields = 1.0, regain = 0.4; /* s, m/s */
+    const double yields = 1.0, regain = 0.4, grows = 2.5; /* s, m/s, s */
     for (uint32_t i = 0; i < world->walker_count && s->mover_count < FF_SIGHT_MOVING_MAX; ++i) {
         const ff_walker *from = &world->walkers[i];
         ff_vec2 at = ff_sub2(from->position, s->origin);
@@ -176,15 +187,16 @@ static void see_walkers(ff_sight *s, const ff_plan_world *world, double view)
                               .high = 1.9,
                               .bound = from->half_length + from->radius};
         if (from->half_length == 0.0) m->solid.axis = ff_v2(1.0, 0.0);
-        m->grow = from->grow * FF_TRACK_STEP;
-        m->known = (uint32_t)(from->until / FF_TRACK_STEP);
+        m->grow = 0.0;
+        m->known = (uint32_t)ff_min(from->until / FF_TRACK_STEP, FF_TRACK_KNOTS_MAX - 1.0);
         m->gone = 1;
         m->evaded = 0;
-        m->yields = (int32_t)(yields / FF_TRACK_STEP);
+        m->yields = from->path_a ? INT32_MAX : (int32_t)(yields / FF_TRACK_STEP);
         for (uint32_t k = 0; k <= m->known; ++k) {
-            m->at[k] = ff_madd2(at, from->velocity, k * FF_TRACK_STEP - s->lead);
-            m->slack[k] =
-                (float)ff_min(from->wide - from->radius, regain * ff_max(k * FF_TRACK_STEP - s->lead, 0.0));
+            double time = k * FF_TRACK_STEP - s->lead, later = ff_max(time, 0.0);
+            m->at[k] = ff_add2(at, walker_at(from, time));
+            m->slack[k] = (float)(ff_min(from->wide - from->radius, regain * later) +
+                                  from->grow * ff_min(k * FF_TRACK_STEP, grows));
         }
     }
 }
