@@ -41,6 +41,8 @@ static ff_status fill_grid(const ff_body_shape *shape, double cell, grid *g, ff_
                      ff_max(high.y, ff_max(limb->a.y, limb->b.y) + r),
                      ff_max(high.z, ff_max(limb->a.z, limb->b.z) + r));
     }
+    low.x = floor(low.x / cell) *
+            cell; /* nodes in the middle tell legs apart that are less than a cell from it */
     ff_vec3 extent = ff_scale3(ff_sub3(high, low), 1.0 / cell);
     if (!(extent.x < 1000.0 && extent.y < 1000.0 && extent.z < 1000.0))
         return ff_fail(error, FF_ERR_UNSUPPORTED, "the pack's skeleton is too large to draw (%.1f m tall)",
@@ -102,7 +104,7 @@ static uint32_t nearest_limb(const ff_body_shape *shape, ff_vec3 p, double *join
         joint_distance[j] = 1e9;
     for (uint32_t i = 0; i < shape->count; ++i) {
         const ff_limb *limb = &shape->limbs[i];
-        double d = ff_limb_distance(limb, p);
+        double d = ff_limb_distance(shape, limb, p);
         joint_distance[limb->joint] = ff_min(joint_distance[limb->joint], d);
         if (d < least) {
             least = d;

@@ -1,5 +1,8 @@
 #include "runtime/export/body_shape.h"
 
+#define APART                                                                                                \
+    0.014 /* m, of a leg from the middle: more than its limbs swell where they flow into each other */
+
 /* Sizes are those of a person with hips 0.95 m high and follow artists' proportions: head 1/7.5 of the height,
  * shoulders two heads wide. */
 
@@ -135,23 +138,35 @@ void ff_body_shape_make(const ff_figure *figure, ff_body_shape *out)
     add_leg(out, figure, FF_JOINT_HIP_R, -1.0);
 }
 
-double ff_limb_distance(const ff_limb *limb, ff_vec3 point)
+/* Legs flow into the trunk, not into each other, however near they are in the rest pose: skin between them would stretch like a
+ * skirt as they walk. */
+static bool is_leg(const ff_limb *limb)
+{
+    return limb->joint >= FF_JOINT_HIP_L;
+}
+
+double ff_limb_distance(const ff_body_shape *shape, const ff_limb *limb, ff_vec3 point)
 {
     ff_vec3 axis = ff_sub3(limb->b, limb->a), from = ff_sub3(point, limb->a);
     double squared = ff_dot3(axis, axis);
     double t = squared > 1e-12 ? ff_clamp(ff_dot3(from, axis) / squared, 0.0, 1.0) : 0.0;
-    return ff_length3(ff_madd3(from, axis, -t)) - ff_lerp(limb->radius_a, limb->radius_b, t);
+    double d = ff_length3(ff_madd3(from, axis, -t)) - ff_lerp(limb->radius_a, limb->radius_b, t);
+    double x = limb->joint >= FF_JOINT_HIP_R ? -point.x : point.x;
+    return is_leg(limb) ? ff_max(d, APART * shape->scale - x) : d;
 }
 
 double ff_body_distance(const ff_body_shape *shape, ff_vec3 point)
 {
-    double distance = 1e9;
+    double half[2] = {1e9, 1e9}; /* with the left leg, with the right one */
     for (uint32_t i = 0; i < shape->count; ++i) {
         const ff_limb *limb = &shape->limbs[i];
-        double d = ff_limb_distance(limb, point), k = limb->smooth;
-        /* Quadratic smooth minimum: exact away from where both are near. */
-        double h = k > 0.0 ? ff_max(k - fabs(d - distance), 0.0) / k : 0.0;
-        distance = ff_min(distance, d) - 0.25 * h * h * k;
+        double d = ff_limb_distance(shape, limb, point), k = limb->smooth;
+        for (int side = 0; side < 2; ++side) {
+            if (is_leg(limb) && (limb->joint >= FF_JOINT_HIP_R) != (side == 1)) continue;
+            /* Quadratic smooth minimum: exact away from where both are near. */
+            double h = k > 0.0 ? ff_max(k - fabs(d - half[side]), 0.0) / k : 0.0;
+            half[side] = ff_min(half[side], d) - 0.25 * h * h * k;
+        }
     }
-    return ff_max(distance, -point.y);
+    return ff_max(ff_min(half[0], half[1]), -point.y);
 }

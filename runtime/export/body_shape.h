@@ -33,8 +33,9 @@ typedef struct ff_body_shape {
 
 void ff_body_shape_make(const ff_figure *figure, ff_body_shape *out);
 
-/* Signed distance to one limb, and to the whole body (soles cut flat at y = 0); negative inside. */
-double ff_limb_distance(const ff_limb *limb, ff_vec3 point);
+/* Signed distance to one limb (a leg only on its side of the middle), and to the whole body (soles cut flat at y = 0); negative
+ * inside. */
+double ff_limb_distance(const ff_body_shape *shape, const ff_limb *limb, ff_vec3 point);
 double ff_body_distance(const ff_body_shape *shape, ff_vec3 point);
 
 #endif

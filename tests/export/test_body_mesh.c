@@ -103,6 +103,35 @@ static void test_weights_sum_to_one_and_stay_on_their_side(void **state)
     }
 }
 
+static int leg_of(const ff_body_vertex *v)
+{
+    return v->joints[0] >= FF_JOINT_HIP_L ? ff_joint_side(v->joints[0]) : 0;
+}
+
+/* Some skeletons' hips are so narrow that the thighs of the rest pose touch: skin from one leg to the other would be a skirt. */
+static void test_no_skin_reaches_from_leg_to_leg_below_the_hips(void **state)
+{
+    (void)state;
+    for (int narrow = 0; narrow < 2; ++narrow)
+        for (double cell = 0.016; cell < 0.032; cell += 0.007) {
+            ff_figure person = figure;
+            ff_body_mesh body;
+            ff_error error;
+            for (int j = FF_JOINT_HIP_L; narrow && j <= FF_JOINT_BALL_R; ++j)
+                person.rest[j].x *= 0.046 / fabs(figure.rest[FF_JOINT_HIP_L].x);
+            double crotch = person.rest[FF_JOINT_HIP_L].y - 0.16; /* where the trunk ends */
+            FF_ASSERT_OK(ff_body_mesh_make(&person, cell, &body, &error), error);
+            const ff_body_vertex *vertices = body.vertices.data;
+            const uint32_t *corner = body.triangles.data;
+            for (size_t i = 0; i < 3 * body.triangles.count; ++i) {
+                const ff_body_vertex *p = &vertices[corner[i]],
+                                     *q = &vertices[corner[i - i % 3 + (i + 1) % 3]];
+                assert_true(leg_of(p) * leg_of(q) >= 0 || (double)p->position[1] > crotch);
+            }
+            ff_body_mesh_free(&body);
+        }
+}
+
 static void test_every_piece_of_clothing_is_there_and_covers_are_contiguous(void **state)
 {
     (void)state;
@@ -152,6 +181,7 @@ int main(void)
         cmocka_unit_test(test_it_faces_outwards_and_weighs_as_much_as_a_person),
         cmocka_unit_test(test_vertices_lie_on_the_surface_above_the_ground),
         cmocka_unit_test(test_weights_sum_to_one_and_stay_on_their_side),
+        cmocka_unit_test(test_no_skin_reaches_from_leg_to_leg_below_the_hips),
         cmocka_unit_test(test_every_piece_of_clothing_is_there_and_covers_are_contiguous),
         cmocka_unit_test(test_skinning_the_rest_pose_changes_nothing_and_a_moved_root_moves_all),
         cmocka_unit_test(test_a_skeleton_that_is_no_person_is_refused),
