@@ -207,16 +207,13 @@ static double raise_left(const ff_gait_foot *state)
 }
 
 /* What is in the air need not be in reach at once, or at all, nor forget at once that it was out of it: its heel is raised and sinks no
- * faster than by quickest. */
+ * faster than by quickest. Feet of who runs come up as fast as that by themselves. */
 static void tip_foot(const ff_gait *gait, ff_gait_foot *state, double quickest)
 {
-    double least = raise_left(state), most = FF_MOST_RAISE;
-    if (gait->blend.way != FF_RUNNING) {
-        least = ff_max(least, state->tilt - SINKS * quickest + state->pitch);
-        most = ff_clamp(state->tilt + quickest + state->pitch - least, 0.0, most);
-    }
+    double least = raise_left(state);
+    if (gait->blend.way != FF_RUNNING) least = ff_max(least, state->tilt - SINKS * quickest + state->pitch);
     state->least_raise = least;
-    state->most_raise = most;
+    state->most_raise = ff_clamp(state->tilt + quickest + state->pitch - least, 0.0, FF_MOST_RAISE);
 }
 
 /* Of a foot that stands: should a switch lift it right now. */
