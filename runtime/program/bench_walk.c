@@ -140,12 +140,13 @@ static ff_status walk_course(const walk_bench *bench, walk_row *row, ff_error *e
     return status;
 }
 
-/* The first measure of a row that breaks its bar, or NULL. */
+/* The first measure of a row that breaks its bar, or NULL. Captured runs reach 63,000 deg/s2 at the knee: no bar for those who
+ * run. */
 static const char *broken(const walk_row *row)
 {
     const ff_gait_meter *m = &row->total;
     if (row->skate[0] > SKATE_MEDIAN || row->skate[1] > SKATE_P95) return "skate";
-    if ((double)m->pops > RARE * (double)m->bends) return "knee";
+    if (!row->course->runs && (double)m->pops > RARE * (double)m->bends) return "knee";
     if ((double)m->fast > RARE * (double)m->poses) return "joint";
     if ((double)m->scraping > RARE * (double)m->swings) return "clearance";
     if (m->close > 0) return "ankles";
@@ -212,7 +213,7 @@ static ff_status walk_one(walk_bench *bench, const ff_course *course, ff_error *
         fflush(stdout);
         json_array_append_new(bench->rows, row_json(&row, &bench->figure));
         ++bench->walked;
-        bench->broken += !course->runs && broken(&row) != NULL;
+        bench->broken += broken(&row) != NULL;
     }
     ff_gait_meter_free(&row.total);
     return status;
@@ -312,7 +313,7 @@ int ff_bench_walk_main(int argc, char **argv)
          .integer = &given.seed,
          .low = 0,
          .high = 1e9},
-        {.name = "--check", .help = "fail when a course that is walked breaks a bar", .flag = &given.check},
+        {.name = "--check", .help = "fail when a course breaks a bar", .flag = &given.check},
         {0}};
     const ff_bench_command command = {
         .name = "bench walk",

@@ -52,7 +52,7 @@ static inline void built_in_go(built_in_walker *w, ff_rates wanted, double dt)
     now->forward += ff_clamp(wanted.forward - now->forward, -2.0 * dt, 2.0 * dt);
     now->left += ff_clamp(wanted.left - now->left, -2.0 * dt, 2.0 * dt);
     now->turn += ff_clamp(wanted.turn - now->turn, -4.0 * dt, 4.0 * dt);
-    *now = ff_blend_clamp(w->space, *now);
+    *now = ff_gait_clamp(w->space, &w->gait, *now);
     ff_vec2 ahead = ff_fwd2(w->heading + 0.5 * now->turn * dt);
     w->position = ff_madd2(w->position, ff_from_frame2(ahead, ff_v2(now->forward, now->left)), dt);
     w->heading += now->turn * dt;

@@ -27,6 +27,9 @@
 #define STRETCH_FROM 0.10 /* m between a planted foot and the clip's from where on steps quicken ... */
 #define STRETCH_TO 0.30   /* ... to the most, and the foot steps as soon as the other stands */
 #define MOST_TEMPO 1.5
+#define RUN_MOST_TEMPO 1.2 /* who runs has legs that are about as fast as they get ... */
+#define RUN_LIFTS                                                                                            \
+    (3.0 * FF_DEG) /* ... and lets go of the ground, by as much, once a heel must rise to be in reach */
 #define STRETCH_YAW (40.0 * FF_DEG)
 #define PACE_TIME 0.08 /* s, in which the clock of the steps takes up a new pace ... */
 #define FIRST_PACE 0.2 /* ... and what it begins with: a foot that has stood sets off slowly */
@@ -204,8 +207,9 @@ static bool time_to_lift(const ff_foot_scene *scene, const ff_gait *gait, int fo
     ff_blend_lock(scene->space, &gait->blend, foot, &start, &length);
     double since = ff_phase_wrap(scene->phase - start);
     if (since >= length && FF_GAIT_KEYS - since > LEAST_SWING) return true;
-    return stretch(scene, gait, foot) >= 1.0 && since > length - EARLY_LIFT &&
-           FF_GAIT_KEYS - since > LEAST_SWING;
+    bool late = stretch(scene, gait, foot) >= 1.0 ||
+                (gait->blend.way == FF_RUNNING && gait->foot[foot].raised > RUN_LIFTS);
+    return late && since > length - EARLY_LIFT && FF_GAIT_KEYS - since > LEAST_SWING;
 }
 
 /* What the last switch has left of a difference. The place of a foot that stands is its lock's alone. */
@@ -288,7 +292,8 @@ static void advance_phase(const ff_blend_space *space, ff_gait *gait, ff_foot_sc
 {
     double most = ff_max(stretch(scene, gait, 0), stretch(scene, gait, 1));
     double hurry = ff_max(ff_smooth(most), 0.7 * ff_foot_closing(scene->rates));
-    double goal = (1.0 + (MOST_TEMPO - 1.0) * hurry) / gait->style.cadence;
+    double quickest = gait->blend.way == FF_RUNNING ? RUN_MOST_TEMPO : MOST_TEMPO;
+    double goal = (1.0 + (quickest - 1.0) * hurry) / gait->style.cadence;
     gait->pace += (1.0 - ff_exp(-scene->dt / PACE_TIME)) * (goal - gait->pace);
     gait->phase = ff_phase_advance(space, &gait->blend, gait->phase, scene->dt * gait->pace);
     scene->phase = gait->phase;
