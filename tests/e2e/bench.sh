@@ -40,7 +40,7 @@ synthesis_measures_poses_with_simd_and_without() {
         has "$work/synthesis.json" '"characters": 20' '"simd": true' '"simd": false' us_blend us_ik '"joints": 31'
 }
 walks_keep_their_bars() {
-    # Runs are shown, and not held to the bars of walking.
+    # Runs too, but for their knees.
     run 0 "$crowd" bench walk --pack "$builtin" --seconds 20 --check --json "$work/walk.json" && silent err || return 1
     [ "$(grep -c '"broken"' "$work/walk.json")" -ge 30 ] && has "$work/out" "hasty commands" crowd "run 3.0" &&
         has "$work/walk.json" '"synthesis": "blending"' skate_median_m knee_deg_per_s2 joint_ratio clear_m ankles_m
