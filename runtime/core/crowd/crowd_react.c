@@ -149,12 +149,15 @@ static void try_freezing(ways *w)
 }
 
 /* What was found becomes the job's, if it is better than what there was. */
-static bool take_best(const ff_crowd *crowd, uint32_t slot, const ways *w, const outcome *old)
+static bool take_best(const ff_crowd *crowd, uint32_t slot, const ways *w, const outcome *old,
+                      ff_plan_job *job)
 {
     if (!better(&w->outcome, old)) return false;
     /* Who goes by velocity keeps off the plan in force: what only meets him later takes him by surprise as well. */
     if (old->surprise == INFINITY && old->others == INFINITY && w->outcome.walkers < INFINITY) return false;
-    ff_plan_job *job = w->best;
+    job->plan = w->best->plan;
+    job->track = w->best->track;
+    job->kind = w->best->kind;
     job->bounds = ff_track_bounds(&job->track);
     job->target = ff_stepper_target(crowd, slot);
     job->good = 1;
@@ -170,7 +173,8 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
     const ff_action_set *set = crowd->footsteps->actions;
     const ff_plan_step *now = &s->plan.steps[s->at], *from = s->at > 0 ? now - 1 : &s->plan.from;
     if (now->hold && s->at + 1 == s->plan.count) return false; /* stands already */
-    ways w = {.crowd = crowd, .world = world, .best = job, .time = time, .slot = slot};
+    ff_plan_job best; /* the job keeps what the search found, unless there is something better */
+    ways w = {.crowd = crowd, .world = world, .best = &best, .time = time, .slot = slot};
     /* What the plan in force, or the one just found, would meet. */
     ff_plan_job keep = {
         .slot = slot, .plan = job->good ? job->plan : s->plan, .track = job->good ? job->track : s->track};
@@ -183,7 +187,7 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
         return false;
     outcome old = w.outcome;
     try_step(&w, now, from, false);
-    if (now->hold) return take_best(crowd, slot, &w, &old);
+    if (now->hold) return take_best(crowd, slot, &w, &old, job);
     double done = (time - now->start) / (double)set->actions[now->action].duration;
     const ff_set_action *before = &set->actions[from->action];
     /* In danger a step may become a leap, as long as it has hardly begun. */
@@ -203,5 +207,5 @@ bool ff_stepper_react(const ff_crowd *crowd, uint32_t slot, const ff_plan_world 
     }
     if (w.outcome.surprise < SUDDEN)
         try_freezing(&w); /* not before people, who may be about to pass behind */
-    return take_best(crowd, slot, &w, &old);
+    return take_best(crowd, slot, &w, &old, job);
 }
