@@ -18,7 +18,7 @@
 
 #define SKATE_MEDIAN 0.001 /* m per plant */
 #define SKATE_P95 0.003
-#define RARE 1e-4 /* of all poses, that may be above a bar: commands that nobody would give make some */
+#define RARE 1e-5 /* of all poses, that may be above a bar: commands that nobody would give make some */
 #define FILM_SECONDS 12.0 /* of each course */
 
 typedef struct walk_options {

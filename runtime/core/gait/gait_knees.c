@@ -14,9 +14,9 @@
 #define LEAST_BEND (8.0 * FF_DEG)     /* of a planted knee that takes its time to stop */
 #define LEAST_RAISED 0.002            /* rad: less is rounding */
 #define QUICKEST_HEEL 1.15            /* times the fastest ankle, or toes, in the database */
-#define SINKS 0.8                     /* of that, the other way: in swing the shank turns against it */
+#define SINKS 0.6                     /* of that, the other way: in swing the shank turns against it */
 #define DROP_STEPS 3
-#define QUICKEST_KNEE 1.1 /* times the fastest in the database: of a knee as its foot lifts */
+#define QUICKEST_KNEE 1.3 /* times the fastest in the database: of a knee as its foot lifts */
 #define ROLLS_FIRST                                                                                          \
     (4.0 * FF_DEG) /* by which a foot rolls on instead of with a heel that was raised to be in reach ... */
 #define ROLLS_LATER                                                                                          \
@@ -194,6 +194,7 @@ static void ease_knee(const ff_body_frame *body, ff_gait_foot *state, int foot, 
         ease_flying(body, state, foot, limb, quickest, dt, &now);
     state->knee_speed = state->knee > 0.0 ? (now.bend - state->knee) / dt : 0.0;
     state->knee = now.bend;
+    state->above = now.raised;
     state->tilt = now.raised - state->pitch;
 }
 
@@ -211,7 +212,7 @@ static double raise_left(const ff_gait_foot *state)
 static void tip_foot(const ff_gait *gait, ff_gait_foot *state, double quickest)
 {
     double least = raise_left(state);
-    if (gait->blend.way != FF_RUNNING) least = ff_max(least, state->tilt - SINKS * quickest + state->pitch);
+    if (gait->blend.way != FF_RUNNING) least = ff_max(least, state->above - SINKS * quickest);
     state->least_raise = least;
     state->most_raise = ff_clamp(state->tilt + quickest + state->pitch - least, 0.0, FF_MOST_RAISE);
 }
@@ -225,7 +226,8 @@ static void ready_to_lift(ff_gait_foot *state, double most_tilt)
 
 static void forget_knee(ff_gait_foot *state)
 {
-    state->tilt = (state->planted ? 0.0 : state->least_raise) - state->pitch;
+    state->above = state->planted ? 0.0 : state->least_raise;
+    state->tilt = state->above - state->pitch;
     state->knee = state->knee_speed = state->give = 0.0;
     if (state->planted) state->raised = 0.0;
 }

@@ -32,6 +32,7 @@ typedef struct ff_gait_foot {
     double
         raised; /* rad, by how much its heel is higher than the gait has it, to be in reach; in swing, as it lifted */
     double tilt;        /* rad, by how much the foot points down, its heel raised to be in reach */
+    double above;       /* rad, by how much the heel is raised now, in swing and standing */
     double least_raise; /* rad, in swing: by how much it is raised in any case, */
     double most_raise;  /* ... and may be beyond that, to be in reach */
     double toes;        /* rad, by how much toes are bent up, */
