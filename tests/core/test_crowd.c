@@ -121,6 +121,31 @@ static void two_side_by_side_who_must_change_sides_do_so_on_the_way(void **state
     FF_ASSERT_BELOW(last[1], last[0] + 1.4); /* 1.7 when neither falls back */
 }
 
+/* With somebody who stands at either side, who has to be asked to make way. They stood there for six seconds, until the
+ * watchdog sent one of them off. */
+static void two_who_come_to_stand_nose_to_nose_step_past_each_other(void **state)
+{
+    (void)state;
+    ff_crowd *crowd = new_crowd(4, 1);
+    ff_vec2 right = ff_v2(-0.02, -0.66), left = ff_v2(0.04, 0.77);
+    ff_agent one = add(crowd, ff_v2(0, 0), ff_v2(1.3, 0));
+    ff_agent two = add(crowd, ff_v2(0.55, 0.32), ff_v2(-1.2, -0.39));
+    add(crowd, right, right);
+    add(crowd, left, left);
+    double deepest = 0.0;
+    int steps = 0;
+    while (!(state_of(crowd, one).reached && state_of(crowd, two).reached) && steps < 600) {
+        ff_crowd_step(crowd);
+        ++steps;
+        ff_vec2 gap = ff_sub2(state_of(crowd, one).position, state_of(crowd, two).position);
+        deepest = ff_max(deepest, 0.6 - ff_length2(gap));
+    }
+    print_message("nose to nose: %.1f s\n", steps / 30.0);
+    FF_ASSERT_BELOW(steps / 30.0, 6.0);
+    FF_ASSERT_BELOW(deepest, 0.005);
+    ff_crowd_destroy(crowd);
+}
+
 static void two_who_meet_head_on_pass_each_other_on_the_right(void **state)
 {
     (void)state;
@@ -367,6 +392,7 @@ int main(void)
         cmocka_unit_test(slow_people_reach_small_goals_and_fast_ones_do_not_overshoot),
         cmocka_unit_test(who_looks_away_from_the_goal_turns_and_goes),
         cmocka_unit_test(two_side_by_side_who_must_change_sides_do_so_on_the_way),
+        cmocka_unit_test(two_who_come_to_stand_nose_to_nose_step_past_each_other),
         cmocka_unit_test(two_who_meet_head_on_pass_each_other_on_the_right),
         cmocka_unit_test(people_on_one_point_part_without_nan),
         cmocka_unit_test(many_with_one_goal_settle_round_it),

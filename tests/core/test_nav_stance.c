@@ -95,10 +95,13 @@ static void each_rule_faces_where_it_says(void **state)
     ff_vec2 oblique = ff_v2(0.1, 1.0); /* less than 90 degrees off */
     double half = 0.5 * ff_atan2(1.0, 0.1);
     FF_ASSERT_NEAR(face(FF_FACING_HALFWAY, false, ahead, oblique, &strafing), half, 1e-9);
-    FF_ASSERT_NEAR(face(FF_FACING_HALFWAY, false, ahead, back, &strafing), FF_PI, 1e-9);
+    /* Pushed back he faces on, unless he has to run. */
+    FF_ASSERT_NEAR(face(FF_FACING_HALFWAY, false, ahead, back, &strafing), 0.0, 1e-9);
+    FF_ASSERT_NEAR(face(FF_FACING_HALFWAY, false, ahead, ff_v2(-1.2, 0.0), &strafing), FF_PI, 1e-9);
+    FF_ASSERT_NEAR(face(FF_FACING_COMMAND, false, ahead, back, &strafing), FF_PI, 1e-9);
     FF_ASSERT_NEAR(face(FF_FACING_PREFERRED, false, ahead, back, &strafing), 0.0, 1e-9);
     FF_ASSERT_NEAR(face(FF_FACING_COMMAND, false, ahead, aside, &strafing), 0.5 * FF_PI, 1e-9);
-    FF_ASSERT_NEAR(face(FF_FACING_HALFWAY, true, ahead, back, &strafing), 0.0,
+    FF_ASSERT_NEAR(face(FF_FACING_COMMAND, true, ahead, back, &strafing), 0.0,
                    1e-9); /* backs off, facing on */
     FF_ASSERT_NEAR(face(FF_FACING_HALFWAY, true, ahead, ff_v2(-1.2, 0.0), &strafing), FF_PI, 1e-9);
     FF_ASSERT_NEAR(face(FF_FACING_HALFWAY, false, ahead, none, &strafing), 0.0, 1e-9);

@@ -139,7 +139,7 @@ void ff_nav_step(const ff_nav_world *world, uint32_t self, const ff_neighbour *n
         mind->preferred = ff_nav_make_way(world, self, neighbours, count);
     preferred = ff_nav_keep_right(world, self, view.walls, view.wall_count, traits, preferred, mind);
     if (constrained && world->mcn->progress)
-        preferred = ff_nav_fall_back(world, self, neighbours, count, preferred);
+        preferred = ff_nav_fall_back(world, self, neighbours, count, preferred, mind);
     if (constrained) {
         ff_constraints lines;
         gather(&view, body, preferred, mind, &lines);

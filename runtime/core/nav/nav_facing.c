@@ -35,6 +35,10 @@ double ff_nav_facing(ff_facing_rule rule, ff_vec2 preferred, ff_vec2 command, do
         face = strafe(wish, way, step, strafing);
     else if (rule.rule == FF_FACING_HALFWAY && ff_dot2(wish, way) > 0.0)
         face = ff_add2(wish, way);
+    /* Pushed aside by somebody: with the command faced he would have turned his back to the goal when the way is free again
+     * (unlike in the study). */
+    else if (rule.rule == FF_FACING_HALFWAY && speed < BACK_SPEED && ff_dot2(wish, wish) > 0.5)
+        face = wish;
     return ff_dot2(face, face) > 0.0 ? ff_atan2(face.b, face.a) : facing;
 }
 

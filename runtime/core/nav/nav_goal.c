@@ -22,11 +22,15 @@
 #define WAY_SPEED 0.5  /* m/s */
 #define WAY_LEAST 0.05 /* m/s: who wants less than that needs no way */
 
-#define LOCK_GAP 0.15  /* m between two who walk shoulder to shoulder */
-#define LOCK_SPEED 0.3 /* m/s of both together, from which they walk */
-#define LOCK_CROSS                                                                                           \
-    0.3               /* of a preferred velocity: the share across, from which it leads to the other's side */
-#define FALL_BACK 0.4 /* of the preferred speed */
+#define PRESS_GAP 0.15 /* m between two who are in each other's ways */
+/* Of the angle between where one wants to and where the other is, within which that is in the way. */
+#define PRESS_COS 0.6
+#define PRESS_TIME 0.7   /* s without progress, after which one does something about it in any case */
+#define PRESS_MOVING 0.3 /* m/s, with which the other will soon be past */
+#define PRESS_WAIT 0.2   /* of the preferred speed, until he is */
+#define PRESS_TURN 1.2   /* rad from the other, into which one steps past who stays */
+#define PRESS_STEP 0.5   /* s, for which one does so */
+#define ABREAST 0.7 /* cosine of the least angle between the way of two and the line from one to the other */
 
 #define MEET_TIME 5.0   /* s */
 #define MEET_WIDTH 0.6  /* m, by which a pass is called a meeting although nobody would touch */
@@ -95,6 +99,37 @@ static void stand_or_go(double distance, double speed, double step, const ff_tra
     }
 }
 
+/* The side, +1 left or -1 right, on which two who are in each other's ways pass: to which what they want leads, taken
+ * together, so that both get the same. 0: they are not. */
+static double passing_side(const ff_nav_world *world, const ff_seen *me, const ff_seen *other)
+{
+    ff_vec2 to_other = ff_sub2(other->position, me->position);
+    double distance = ff_length2(to_other), reach = me->radius + other->radius;
+    if (other->standing || distance > reach + PRESS_GAP || distance <= 0.0) return 0.0;
+    ff_vec2 n = ff_scale2(to_other, 1.0 / distance);
+    ff_vec2 mine = ff_unit2(me->preferred), theirs = ff_unit2(other->preferred);
+    if (ff_dot2(n, mine) < PRESS_COS || -ff_dot2(n, theirs) < PRESS_COS) return 0.0;
+    double past = ff_det2(n, mine) - ff_det2(n, theirs);
+    if (past == 0.0) return world->keep_right >= 0.0 ? -1.0 : 1.0;
+    return past > 0.0 ? 1.0 : -1.0;
+}
+
+/* A step past who stays in one's way, as one does in his. */
+static void step_past(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
+                      uint32_t count, ff_vec2 to_goal, ff_mind *mind)
+{
+    const ff_seen *me = &world->grid->seen[self];
+    for (uint32_t i = 0; i < count; ++i) {
+        const ff_seen *other = &world->grid->seen[neighbours[i].index];
+        double side = passing_side(world, me, other);
+        if (side == 0.0 || ff_length2(other->velocity) > PRESS_MOVING) continue;
+        ff_vec2 way = turned(ff_sub2(other->position, me->position), side * PRESS_TURN);
+        mind->detour = ff_atan2(ff_det2(to_goal, way), ff_dot2(to_goal, way));
+        mind->detour_left = PRESS_STEP;
+        return;
+    }
+}
+
 ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
                          uint32_t count, const ff_traits *traits, ff_mind *mind)
 {
@@ -117,6 +152,8 @@ ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neig
         if (mind->stalled > PATIENCE && watched)
             give_way_to_fate(goal_taken(world->grid, neighbours, count, traits), distance, world, traits,
                              mind);
+        else if (mind->stalled > PRESS_TIME && watched)
+            step_past(world, self, neighbours, count, to_goal, mind);
     }
     double fastest = traits->preferred_speed;
     if (fastest > FF_RUN_PREFERRED) fastest = ff_min(fastest, sqrt(2.0 * RUN_BRAKE * distance));
@@ -172,31 +209,28 @@ ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_wal
     return turned(preferred, angle * room);
 }
 
-/* Whether two who walk beside each other each want to where the other is, and who wants to go on
- * less (of equals, the later slot). */
-static bool locked(const ff_seen *me, const ff_seen *other)
+/* Whether two walk side by side, and who wants to go on less (of equals, the later slot). */
+static bool falls_back(const ff_seen *me, const ff_seen *other)
 {
-    ff_vec2 x = ff_sub2(other->position, me->position), both = ff_add2(me->velocity, other->velocity);
-    double distance = ff_length2(x);
-    if (other->standing || distance > me->radius + other->radius + LOCK_GAP ||
-        ff_length2(both) < 2.0 * LOCK_SPEED || ff_dot2(me->velocity, other->velocity) <= 0.0)
-        return false;
-    ff_vec2 along = ff_unit2(both);
-    double ahead = ff_dot2(along, x), beside = ff_det2(along, x);
-    if (fabs(ahead) > fabs(beside)) return false;
-    double side = beside > 0.0 ? 1.0 : -1.0;
-    bool crossing = side * ff_det2(along, ff_unit2(me->preferred)) > LOCK_CROSS &&
-                    -side * ff_det2(along, ff_unit2(other->preferred)) > LOCK_CROSS;
+    ff_vec2 to_other = ff_sub2(other->position, me->position);
+    ff_vec2 both = ff_add2(me->velocity, other->velocity), along = ff_unit2(both);
+    if (ff_length2(both) < 2.0 * PRESS_MOVING || ff_dot2(me->velocity, other->velocity) <= 0.0) return false;
+    if (fabs(ff_dot2(along, to_other)) > ABREAST * ff_length2(to_other)) return false;
     double eager = ff_dot2(along, ff_sub2(other->preferred, me->preferred));
-    return crossing && (eager > 0.0 || (eager == 0.0 && me->slot > other->slot));
+    return eager > 0.0 || (eager == 0.0 && me->slot > other->slot);
 }
 
 ff_vec2 ff_nav_fall_back(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
-                         uint32_t count, ff_vec2 preferred)
+                         uint32_t count, ff_vec2 preferred, const ff_mind *mind)
 {
-    for (uint32_t i = 0; i < count; ++i)
-        if (locked(&world->grid->seen[self], &world->grid->seen[neighbours[i].index]))
-            return ff_scale2(preferred, FALL_BACK);
+    const ff_seen *me = &world->grid->seen[self];
+    bool stuck = mind->stalled > PRESS_TIME;
+    for (uint32_t i = 0; i < count; ++i) {
+        const ff_seen *other = &world->grid->seen[neighbours[i].index];
+        if (passing_side(world, me, other) == 0.0) continue;
+        if (stuck ? ff_length2(other->velocity) > PRESS_MOVING : falls_back(me, other))
+            return ff_scale2(preferred, PRESS_WAIT);
+    }
     return preferred;
 }
 

@@ -5,7 +5,8 @@
 #include "runtime/core/nav/nav.h"
 
 /* Preferred velocity before any regard for others; zero for one who stands. Watches progress: somebody who gets no
- * nearer for a while settles, when the goal is taken by others who stand there, or else tries a way round. */
+ * nearer for a while settles, when the goal is taken by others who stand there, or else tries a way round; nose to nose with
+ * another walker he steps past him at once. */
 ff_vec2 ff_nav_preferred(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
                          uint32_t count, const ff_traits *traits, ff_mind *mind);
 
@@ -18,9 +19,10 @@ ff_vec2 ff_nav_keep_right(const ff_nav_world *world, uint32_t self, const ff_wal
 ff_vec2 ff_nav_make_way(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
                         uint32_t count);
 
-/* Two who walk shoulder to shoulder, each wanting to where the other is, hold each other off their ways for as long as
- * they go on like that: the one who wants to go on less slows down, and passes behind the other. */
+/* Two walkers who are in each other's ways hold each other off for as long as they go on. Side by side, the one who wants to go on
+ * less falls back and passes behind; and who gets no further for it waits while the other still moves, as he is about to be past. (If
+ * both stay they step past each other: ff_nav_preferred.) */
 ff_vec2 ff_nav_fall_back(const ff_nav_world *world, uint32_t self, const ff_neighbour *neighbours,
-                         uint32_t count, ff_vec2 preferred);
+                         uint32_t count, ff_vec2 preferred, const ff_mind *mind);
 
 #endif
