@@ -33,8 +33,8 @@ typedef struct ff_clip {
     int rest_frames;    /* leading frames that are a rest pose, not motion (cgspeed BVH: 1) */
     bool drawn;         /* a cycle that an animator made, not a capture: a knee that snaps is meant to */
     ff_quat *rotations; /* [frame_count][joint_count] local, unit */
-    ff_vec3
-        *positions;    /* [frame_count][track_count] m; REPLACES the offset of the joint that has the track */
+    /* [frame_count][track_count] m; REPLACES the offset of the joint that has the track */
+    ff_vec3 *positions;
     double unit_m;     /* metres per file unit that were applied */
     int warning_count; /* oddities met and worked around */
     char warning[256]; /* the first of them, "" when none */

@@ -396,19 +396,19 @@ typedef struct ff_mcn_def {
 typedef struct ff_baseline_def {
     double keep_right; /* rad, as ff_crowd_def.keep_right */
     double padding;    /* m */
-    bool
-        model_velocity; /* others see the body's rates instead of the displacement over a quarter of a second */
+    /* others see the body's rates instead of the displacement over a quarter of a second */
+    bool model_velocity;
 } ff_baseline_def;
 
 /* How those plan who move by footsteps. */
 enum { FF_SPEED_VARIATIONS_MAX = 4 };
 typedef struct ff_footsteps_def {
-    bool
-        mixed; /* there is memory for them (12 kB each) though the crowd's planner is velocity: agents may differ, or
-                        change; default off */
-    bool
-        paper; /* the paper's own formulation, to compare: no stop at the end of plans, no table, no time horizon,
-                        plain distance as heuristic; see runtime/README.md */
+    /* there is memory for them (12 kB each) though the crowd's planner is velocity: agents may differ, or
+     * change; default off */
+    bool mixed;
+    /* the paper's own formulation, to compare: no stop at the end of plans, no table, no time horizon, plain
+     * distance as heuristic; see runtime/README.md */
+    bool paper;
     uint32_t nodes; /* expanded per plan, 1 to 20000; default 300 */
     double seconds; /* wall clock per plan, on top; 0 (default): none, so that results do not depend on it */
     uint32_t plans; /* made per step, at most; 0 (default): 0.8 per second and agent of max_agents, and one */
@@ -438,10 +438,9 @@ typedef struct ff_crowd_def {
                                to the left. 0 makes them meet head on and jam: a convention is needed */
     ff_navigation navigation; /* of agents that do not name their own */
     ff_synthesis synthesis;   /* likewise */
-    double
-        body_scale; /* 0 to 0.15: bodies are up to so much larger or smaller than the pack's, drawn from the seed;
-                        default 0. Where anybody may move by footsteps, all are the pack's size: captured steps do not
-                        stretch */
+    /* 0 to 0.15: bodies are up to so much larger or smaller than the pack's, drawn from the seed; default 0.
+     * Where anybody may move by footsteps, all are the pack's size: captured steps do not stretch */
+    double body_scale;
     ff_mcn_def mcn;
     ff_baseline_def baseline;
     const ff_behaviour_def *behaviour; /* copied at creation; NULL: none */
@@ -620,8 +619,8 @@ typedef struct ff_planned_print {
     double yaw;    /* rad, of the foot */
     double time;   /* s: the foot stands there from then on, until its next print */
     uint32_t foot; /* 0 left, 1 right */
-    uint32_t
-        action; /* the action that puts it there (footfall-pack inspect lists them); UINT32_MAX: it stands there already */
+    /* the action that puts it there (footfall-pack inspect lists them); UINT32_MAX: it stands there already */
+    uint32_t action;
 } ff_planned_print;
 
 /* The plan an agent has made known, for drawing and debugging: first where its feet stand (or stood), then its steps. Writes at most

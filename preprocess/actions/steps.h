@@ -17,9 +17,9 @@ typedef struct ff_join {
 } ff_join;
 
 typedef struct ff_action {
-    ff_pack_action
-        record; /* clip, first_collider, first_event and successors are filled in by the pack builder; times
-                              from the file's first pose; plants index ff_plants.items */
+    /* clip, first_collider, first_event and successors are filled in by the pack builder; times from the file's
+     * first pose; plants index ff_plants.items */
+    ff_pack_action record;
     int first_frame, last_frame; /* of the motion */
     ff_pack_collider colliders[FF_COLLIDER_SAMPLES_MAX][FF_COLLIDER_COUNT];
     ff_pack_event events[FF_ACTION_EVENTS_MAX]; /* times and plants as in record */

@@ -21,8 +21,8 @@ typedef enum ff_example_level {
 } ff_example_level;
 
 typedef struct ff_example_set {
-    ff_example
-        *items; /* idle first, then walks, then runs, each by rates; mirrored copies follow their original */
+    /* idle first, then walks, then runs, each by rates; mirrored copies follow their original */
+    ff_example *items;
     int count;
     int base;       /* subject whose cycles come first, -1 = none */
     int candidates; /* cycles that were good enough to choose from */

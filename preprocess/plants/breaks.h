@@ -17,8 +17,8 @@ typedef struct ff_break {
     int first, last; /* frames of the clip, both broken, inclusive */
     ff_break_kind kind;
     ff_role role; /* of the joint that is furthest off; FF_ROLE_NONE when it froze */
-    double
-        size; /* m off where the frames around have it; frozen: m/s at which the body moves before or after */
+    /* m off where the frames around have it; frozen: m/s at which the body moves before or after */
+    double size;
     bool body;     /* trunk or legs are broken: nothing is cut across it. False: only a toe tip or an arm */
     bool repaired; /* put back from the frames around */
 } ff_break;

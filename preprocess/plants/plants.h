@@ -16,8 +16,8 @@ typedef struct ff_floor {
 
 /* Fixed points of one foot, as vectors in the ankle joint's frame whose identity is the clip's rest pose. */
 typedef struct ff_foot_shape {
-    ff_vec3
-        heel; /* virtual heel: 4 cm behind the ankle along the foot, at ball height when flat (labels' rule) */
+    /* virtual heel: 4 cm behind the ankle along the foot, at ball height when flat (labels' rule) */
+    ff_vec3 heel;
     ff_vec3 ball;
     double ball_height;  /* m above the floor plane when flat */
     double ankle_height; /* m */
@@ -36,8 +36,8 @@ typedef struct ff_plant {
     double ball_y;           /* m */
     double yaw;              /* rad, direction heel to ball on the ground */
     double slide;            /* m, path length of the ball in the flat stretch */
-    double
-        level; /* m over the floor plane; 0 on the floor: what feet and markers make of a level floor does not count */
+    /* m over the floor plane; 0 on the floor: what feet and markers make of a level floor does not count */
+    double level;
     bool written; /* by a person, in an override file */
 } ff_plant;
 

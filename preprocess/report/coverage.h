@@ -15,8 +15,8 @@ uint32_t ff_coverage_count(const ff_pack *pack, int kind);
 typedef struct ff_branching {
     double median;
     uint32_t least, most;
-    uint32_t
-        forced; /* actions whose nearest successor is further than poses should be: taken for want of a better one */
+    /* actions whose nearest successor is further than poses should be: taken for want of a better one */
+    uint32_t forced;
 } ff_branching;
 ff_branching ff_coverage_branching(const ff_pack *pack);
 

@@ -42,8 +42,8 @@ typedef struct ff_walk_times {
 typedef struct ff_walk_measures {
     double agent_seconds;
     ff_walk_times frame_ms; /* of a step with the poses of everybody, by the clock on the wall */
-    ff_walk_times
-        work_ms; /* the same in time of the processor, all threads together: other programs do not count */
+    /* the same in time of the processor, all threads together: other programs do not count */
+    ff_walk_times work_ms;
     double plan_ms_mean;                /* per step */
     double plan_ms_median, plan_ms_p99; /* of a plan, of the processor */
     double overlap; /* pair-seconds of contact of the five cylinders per 100 agent-seconds */

@@ -30,9 +30,9 @@ typedef struct ff_band_truth {
     ff_range ankle_height; /* m over its flat height */
     ff_range clearance;    /* m, lowest point from 25 to 65 % of the swing */
     ff_range ankles_apart; /* m sideways as they pass */
-    ff_range
-        joint[SPEED_JOINTS]; /* deg/s at 30 Hz: lowest person's median, highest person's 99th percentile */
-    ff_range root;           /* m/s2 over 0.25 s: lowest and highest person's mean */
+    /* deg/s at 30 Hz: lowest person's median, highest person's 99th percentile */
+    ff_range joint[SPEED_JOINTS];
+    ff_range root; /* m/s2 over 0.25 s: lowest and highest person's mean */
 } ff_band_truth;
 
 static const ff_band_truth bands[] = {

@@ -34,8 +34,8 @@ typedef struct ff_conduct {
 
 /* Of a spawner. */
 typedef struct ff_spawning {
-    double
-        due; /* people that should have been put in by now and were not; below 1 between steps, if there was room */
+    /* people that should have been put in by now and were not; below 1 between steps, if there was room */
+    double due;
     uint32_t put_in; /* so far */
     uint32_t alive;
     uint64_t draws;

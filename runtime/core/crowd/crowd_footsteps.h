@@ -121,8 +121,8 @@ typedef struct ff_footsteps {
     ff_glide *glides;     /* [max_agents], by slot: of this step, of those who go by velocity */
     atomic_uint next_job; /* of this step; up to job_end */
     uint32_t job_end, spare;
-    uint32_t
-        *changed; /* slots whose plans came into force in the last step, or that began with footsteps since */
+    /* slots whose plans came into force in the last step, or that began with footsteps since */
+    uint32_t *changed;
     uint32_t changed_count;
     uint32_t lane_count;
     ff_mover *movers; /* [max_obstacles] */

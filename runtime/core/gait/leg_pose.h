@@ -22,8 +22,8 @@ typedef struct ff_leg_target {
     double swing;     /* 0: not in swing, else its progress to 1: the leg may fall short of its foot */
     double round;     /* 0: a foot that lies flat to 1: it rolls or flies, and gets out of reach gradually */
     double toes_more; /* rad, by which toes are bent up, other than by the floor */
-    double
-        give; /* m, by which the leg is longer than to the foot's place, or, of one that stands, than its reach */
+    /* m, by which the leg is longer than to the foot's place, or, of one that stands, than its reach */
+    double give;
     double raise; /* rad, by which the heel is lifted in any case */
 } ff_leg_target;
 

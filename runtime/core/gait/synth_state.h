@@ -16,8 +16,8 @@ typedef struct ff_gait_foot {
     ff_foothold lock; /* planted: where it stands; in swing: where it will land */
     ff_foothold now;  /* where the ball is */
     ff_foothold path; /* ... and would be if it had nothing to keep clear of */
-    ff_foothold
-        from; /* in swing: offset from the clip's foot when it left the ground (yaw: from the heading) */
+    /* in swing: offset from the clip's foot when it left the ground (yaw: from the heading) */
+    ff_foothold from;
     ff_foothold slope; /* 1/s, of that offset */
     double pitch;      /* rad, toes up + */
     double from_pitch; /* rad, in swing: offset from the clip's pitch when it left the ground */
@@ -29,8 +29,8 @@ typedef struct ff_gait_foot {
     double phase_left; /* u, to the landing */
     double knee;       /* rad, its bend; 0 while nobody looks after it ... */
     double knee_speed; /* rad/s */
-    double
-        raised; /* rad, by how much its heel is higher than the gait has it, to be in reach; in swing, as it lifted */
+    /* rad, by how much its heel is higher than the gait has it, to be in reach; in swing, as it lifted */
+    double raised;
     double tilt;        /* rad, by how much the foot points down, its heel raised to be in reach */
     double above;       /* rad, by how much the heel is raised now, in swing and standing */
     double least_raise; /* rad, in swing: by how much it is raised in any case, */
@@ -46,8 +46,8 @@ typedef struct ff_gait_style {
     double cadence; /* factor on the cycle's period */
     double arms;    /* factor on the arm swing */
     double stoop;   /* rad, forward bend of the spine */
-    double
-        scale; /* of the pack's skeleton. All else in ff_gait is in lengths of that: world lengths over scale */
+    /* of the pack's skeleton. All else in ff_gait is in lengths of that: world lengths over scale */
+    double scale;
 } ff_gait_style;
 
 struct ff_gait {

@@ -264,8 +264,8 @@ typedef struct ff_pack_event {
  * from the landed one, which only standing allows, is anchored where it stands. */
 typedef struct ff_pack_successor {
     uint32_t action;
-    float
-        distance; /* m, root mean square of the joints over 5 frames round the joint, the support foot aligned */
+    /* m, root mean square of the joints over 5 frames round the joint, the support foot aligned */
+    float distance;
     float cost; /* J/kg that a planner is charged for the joint (footstep study, section 4.5) */
 } ff_pack_successor;
 

@@ -260,8 +260,8 @@ typedef struct ff_plan_options {
     double wait;           /* price of waiting, in units of e_s; default 3 */
     double proximity_cost; /* J/(kg s) within proximity of somebody; default 0 */
     double proximity;      /* m; default 0.3 */
-    double
-        reactive_cost; /* J/kg that a jump or a duck costs on top of its energy, where they are allowed; default 150 */
+    /* J/kg that a jump or a duck costs on top of its energy, where they are allowed; default 150 */
+    double reactive_cost;
     double view;         /* m, how far away those are now who can be met later; default 20 */
     uint32_t view_count; /* how many of them, the likeliest; default and at most 128 */
     uint8_t lazy;  /* actions are tested when they are looked at, not when they are thought of; default 1 */

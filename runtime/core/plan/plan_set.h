@@ -73,8 +73,8 @@ typedef struct ff_set_next {
 
 /* The shortest ways to a stand from the end of an action: one or two actions. */
 typedef struct ff_set_stop {
-    uint16_t
-        next[2]; /* into the lists of `next`, relative to the first of each action; 0xffff: no second one */
+    /* into the lists of `next`, relative to the first of each action; 0xffff: no second one */
+    uint16_t next[2];
     float time, cost;
 } ff_set_stop;
 enum { FF_SET_STOPS_MAX = 12, FF_SET_NO_STOP = 0xffff };

@@ -24,21 +24,21 @@ typedef struct ff_play_foot {
 /* One entry: an action whose frame S0 lies at anchor and heading, from start to end. */
 typedef struct ff_play_step {
     double start, end; /* s, absolute */
-    double
-        entered; /* s, absolute, from when it is played: start, or later for one that takes over in the middle */
+    /* s, absolute, from when it is played: start, or later for one that takes over in the middle */
+    double entered;
     double pace;          /* factor on the action's speed */
     double a, b;          /* m: the support ball (of FF_PLAY_STAND: the root) */
     double heading;       /* rad, of the root at the start */
     ff_play_foot foot[2]; /* as the action begins */
     uint32_t action;
-    uint32_t
-        last; /* of FF_PLAY_STAND: the action in whose last pose it stands; FF_PLAY_STAND: the idle example's */
+    /* of FF_PLAY_STAND: the action in whose last pose it stands; FF_PLAY_STAND: the idle example's */
+    uint32_t last;
 } ff_play_step;
 
 /* Plain data, no pointers, no padding. */
 typedef struct ff_play {
-    ff_play_step
-        step[2]; /* the one being played, and what follows (one that does not end has nothing after it) */
+    /* the one being played, and what follows (one that does not end has nothing after it) */
+    ff_play_step step[2];
     double idle_time; /* s, of the idle motion at absolute time 0 */
     double joined;    /* s, absolute: when offset began */
     ff_pose_offset offset;

@@ -41,8 +41,8 @@ typedef struct ff_pose_switch {
 /* Plain data, no padding: may be hashed and saved as bytes. All zero: nothing to add. */
 typedef struct ff_pose_offset {
     double age; /* s, since the switch */
-    float
-        time[4]; /* s, until nothing is left: of hips, trunk and arms; of either foot; of the legs' joints */
+    /* s, until nothing is left: of hips, trunk and arms; of either foot; of the legs' joints */
+    float time[4];
     float hips[2][3];                 /* the difference at the switch, m, and its change then, m/s */
     float foot[2][2][5];              /* per foot the same: forward, left, height (m), yaw, pitch (rad) */
     float turn[2][FF_JOINT_COUNT][3]; /* rotation vectors in the parent's frame, rad and rad/s */
