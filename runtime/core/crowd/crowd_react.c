@@ -118,8 +118,7 @@ static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from
     bool stands = step->hold || (a->flags & FF_SET_TO_STANDING) != 0;
     uint32_t count = stands ? 1 : a->stop_count;
     for (uint32_t k = 0; k < count && w->tried < MOST; ++k, ++w->tried) {
-        ff_plan_job job;
-        job.slot = w->slot;
+        ff_plan_job job = {.slot = w->slot};
         stop_after(set, step, from, stands ? NULL : &set->stops[a->first_stop + k], &job.plan);
         ff_plan_track(set, &job.plan, w->time, &job.track);
         outcome result = judge(w->crowd, w->world, w->time, &job);
@@ -136,8 +135,7 @@ static void try_step(ways *w, const ff_plan_step *step, const ff_plan_step *from
 static void try_freezing(ways *w)
 {
     const ff_body *body = &w->crowd->bodies[w->slot];
-    ff_plan_job job;
-    job.slot = w->slot;
+    ff_plan_job job = {.slot = w->slot};
     ff_plan_stand(w->crowd->footsteps->actions, body->position, body->heading, w->time, &job.plan);
     ff_plan_track(w->crowd->footsteps->actions, &job.plan, w->time, &job.track);
     outcome result = judge(w->crowd, w->world, w->time, &job);
